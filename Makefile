@@ -1,5 +1,7 @@
 # Two commands on a fresh machine: `make demo` and `make test`. Set-up happens once, in .venv.
+# With INSTALLER=uv, uv installs in pip's place: in seconds, but it reads nothing of pip's settings.
 PYTHON ?= python3
+INSTALLER ?=
 VENV   ?= .venv
 BIN    := $(VENV)/bin
 STAMP  := $(VENV)/.installed
@@ -7,17 +9,19 @@ STAMP  := $(VENV)/.installed
 .PHONY: demo test numeric check sizes lint types contracts docs matrix bench clean
 
 $(STAMP): pyproject.toml
+	@echo "Installing into $(VENV), once: some minutes on a new machine."
 	$(PYTHON) -m venv $(VENV)
-	$(BIN)/python -m pip install --quiet --upgrade pip
-	$(BIN)/python -m pip install --quiet --editable '.[ot2,lab,llm,fleet,dev]'
+	$(BIN)/python -m pip install --quiet --upgrade pip $(INSTALLER)
+	$(BIN)/python -m $(INSTALLER) pip install --quiet --editable '.[ot2,lab,llm,fleet,dev]'
 	touch $@
 
 demo: $(STAMP)
 	$(BIN)/aegis-ot demo
 
-# Files side by side: what a module's tests share is made once.
+# Files side by side, in the order of tests/conftest.py: what a module's tests share is made once. Two
+# processes a core, since tests wait as much as they work.
 test: $(STAMP)
-	$(BIN)/python -m pytest -n 2 --dist loadfile
+	$(BIN)/python -m pytest -n 4 --dist loadfile --no-loadscope-reorder
 
 # The tests of numbers once more as an older processor counts: its last digits are others.
 NUMERIC := $(addprefix tests/vision/,column test_calibration.py \
@@ -40,6 +44,7 @@ contracts: $(STAMP)
 
 # The documentation as a site, in out/site; what is generated is written anew.
 docs: $(STAMP)
+	$(BIN)/python -m scripts.compile_rules
 	$(BIN)/aegis-ot rules docs
 	$(BIN)/python -m scripts.cli_reference
 	$(BIN)/mkdocs build --strict

@@ -1,6 +1,18 @@
-"""Guards Opentrons robots: ``from aegis_ot import guard``, then ``@guard`` on ``run``."""
+"""Guards Opentrons robots: ``from aegis_ot import guard``, then ``@guard`` on ``run``.
+
+On a workstation ``aegis_ot.check(path)`` judges a protocol before it runs.
+"""
+
+from typing import TYPE_CHECKING
 
 from ._version import __version__
 from .guard import guard
+from .lazy import door
 
-__all__ = ["__version__", "guard"]
+if TYPE_CHECKING:
+    from .checking.api import check
+
+# The robot loads the guard alone.
+__getattr__ = door(__name__, {"checking.api": "check"})
+
+__all__ = ["__version__", "check", "guard"]

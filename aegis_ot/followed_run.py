@@ -8,11 +8,10 @@ from typing import Any
 from .instrumentation import Event, Operation
 from .preflight.check_protocol import tell_finding
 from .preflight.live_judging import LiveJudge
-from .runtime import Hands, about_layer1
+from .runtime import RunControl, about_layer1
 from .settings import Settings
-from .vocabulary import Finding
+from .vocabulary import NOT_AS_REHEARSED, Finding
 
-NOT_AS_REHEARSED = "not as rehearsed"
 NOT_REHEARSED = "not rehearsed"
 
 
@@ -26,14 +25,16 @@ class FollowedRun:
         why: Why there is no rehearsal to go by; ``""`` if there is one.
     """
 
-    def __init__(self, judge: LiveJudge, hands: Hands, settings: Settings, why: str = "") -> None:
+    def __init__(
+        self, judge: LiveJudge, hands: RunControl, settings: Settings, why: str = ""
+    ) -> None:
         self._judge = judge
         self._hands = hands
         self._acts = settings.rules in ("on", "strict")
         self._why = why
 
     def before(self, operation: Operation) -> None:
-        """Of :class:`aegis_ot.instrumentation.Listener`; raises what :class:`Hands` raise."""
+        """Of :class:`aegis_ot.instrumentation.Listener`; raises what :class:`RunControl` does."""
         if self._acts and not self._hands.acting and self._hands.may_object:
             errors = self._judge.before(operation)
             if errors:

@@ -26,7 +26,7 @@ def guard(target: None = None, /, **settings: Any) -> Callable[[Run], Run]: ...
 def guard(target: Any = None, /, *nameless: Any, **settings: Any) -> Any:
     """Guard a protocol.
 
-    Three forms::
+    Four forms::
 
         @guard
         def run(protocol): ...
@@ -36,6 +36,9 @@ def guard(target: Any = None, /, *nameless: Any, **settings: Any) -> Any:
 
         def run(protocol):
             protocol = guard(protocol)
+            ...
+
+        with guard(protocol):  # in a notebook's cell, or at the top level of a program
             ...
 
     Args:

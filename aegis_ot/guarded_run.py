@@ -11,9 +11,8 @@ import sys
 import weakref
 from collections.abc import Callable, Mapping
 from contextlib import ExitStack
-from contextvars import ContextVar
 from types import FrameType
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 from .errors import (
     AegisError,
@@ -34,24 +33,17 @@ if TYPE_CHECKING:
     from .preflight.rehearsal import Recording
 
 
-class _Guarded(NamedTuple):
-    """A context under guard, and what its guard was told."""
+_GUARDED: weakref.WeakKeyDictionary[Any, Mapping[str, Any]] = weakref.WeakKeyDictionary()
+"""The contexts under guard, and what their guards were told: a notebook's cells share no other
+place, and a robot server runs the next protocol in the same thread."""
 
-    protocol: weakref.ref[Any]
-    keywords: Mapping[str, Any]
-
-
-# Which context is guarded, and not merely that one is: a robot server runs the next protocol
-# in a thread of the same pool, and a mark left there must not leave that one unguarded.
-_GUARDED: ContextVar[_Guarded | None] = ContextVar("aegis_ot_guarded", default=None)
 _GUARDS: weakref.WeakKeyDictionary[Any, int] = weakref.WeakKeyDictionary()
 """How many guards a run has had so far, one after another."""
 
 
-def _first_guard_of(protocol: Any) -> Mapping[str, Any] | None:
-    """What the guard was told under which this context stands already, if it does."""
-    guarded = _GUARDED.get()
-    return guarded.keywords if guarded is not None and guarded.protocol() is protocol else None
+def is_guarded(protocol: Any) -> bool:
+    """Whether this context stands under a guard already."""
+    return protocol in _GUARDED
 
 
 def run_guarded(call: Callable[[], Any], protocol: Any, keywords: dict[str, Any], run: Any) -> Any:
@@ -69,12 +61,13 @@ def run_guarded(call: Callable[[], Any], protocol: Any, keywords: dict[str, Any]
     if (rehearsal := rehearsal_under_way()) is not None:
         return rehearsal.guarded(keywords, _refuse_second, call)
     file_name, module = find_home(run)
-    token = None
+    is_first = False
     try:
-        if (first := _first_guard_of(protocol)) is not None:
+        if (first := _GUARDED.get(protocol)) is not None:
             _refuse_second(first, keywords)
             return call()
-        token = _GUARDED.set(_Guarded(weakref.ref(protocol), keywords))
+        is_first = True
+        _GUARDED[protocol] = keywords
         settings = load_settings(**keywords)
         _announce(protocol, settings)
         recovers = recovers_by_itself(protocol, settings)
@@ -92,8 +85,8 @@ def run_guarded(call: Callable[[], Any], protocol: Any, keywords: dict[str, Any]
         raise_in_protocol(error, file_name, line_of(run))
         raise
     finally:
-        if token is not None:
-            _GUARDED.reset(token)
+        if is_first:
+            _GUARDED.pop(protocol, None)
 
 
 def guard_rest_of(frame: FrameType, protocol: Any, keywords: dict[str, Any]) -> None:
@@ -102,23 +95,31 @@ def guard_rest_of(frame: FrameType, protocol: Any, keywords: dict[str, Any]) -> 
     Used for ``protocol = guard(protocol)``. There is no call to wrap, so the protocol is
     rehearsed here, in simulation too, and the end of the run is seen by a hook on the return of the
     protocol's outermost function. At the top level of a notebook's cell or of a program there is no
-    function: nothing can be rehearsed, and the guard ends with the cell or the program.
+    function: nothing can be rehearsed, and the guard ends with the cell or the program, or with the
+    ``with`` that takes it over.
     """
-    from .guarding import Guarding, Layer1, announce_top_level, tell_of_nothing
+    from .guard_block import GuardBlock, is_head_of_block, offer, offer_again
+    from .guarding import Guarding, Layer1, place_of, tell_of_nothing, tell_what_is_covered
     from .preflight.rehearsal import find_home, rehearsal_under_way
 
     if (rehearsal := rehearsal_under_way()) is not None:
         rehearsal.guarded(keywords, _refuse_second)
+        offer(protocol, None)
         return
     file_name, module = find_home(frame)
     run = outermost(frame, file_name)
     try:
-        if (first := _first_guard_of(protocol)) is not None:
+        if (first := _GUARDED.get(protocol)) is not None:
             _refuse_second(first, keywords)
+            if run is None:
+                offer_again(protocol, frame)
+            else:
+                offer(protocol, None)
             return
         settings = load_settings(**keywords)
         if run is None:
-            announce_top_level(protocol, settings, file_name)
+            place = "block" if is_head_of_block(frame) else place_of(file_name)
+            tell_what_is_covered(protocol, settings, place)
             layer1 = Layer1.none("At the top level there is no run() to rehearse.", settings)
             tips = None
         else:
@@ -126,9 +127,9 @@ def guard_rest_of(frame: FrameType, protocol: Any, keywords: dict[str, Any]) -> 
             tips = KnownTips() if recovers_by_itself(protocol, settings) else None
             layer1 = _preflight(protocol, settings, file_name, tips)
         guarding = Guarding(protocol, settings, file_name, module, layer1, tips)
-        guarded = _Guarded(weakref.ref(protocol), keywords)
+        _GUARDED[protocol] = keywords
         with ExitStack() as beginning:
-            beginning.callback(_GUARDED.reset, _GUARDED.set(guarded))
+            beginning.callback(_GUARDED.pop, protocol, None)
             guarding.begin()
             ending = beginning.pop_all()
     except AegisError as error:
@@ -136,18 +137,28 @@ def guard_rest_of(frame: FrameType, protocol: Any, keywords: dict[str, Any]) -> 
         raise_in_protocol(error, file_name, frame.f_lineno)
         raise
 
-    def end(by_itself: bool) -> None:
-        told = "The protocol raised an error; the robot's run log has it."
-        if run is None and by_itself and not guarding.moved:
-            by_itself, told = False, tell_of_nothing(protocol, file_name)
+    def end(error: BaseException | None, place: str) -> None:
+        told = "" if run is None else "The protocol raised an error; the robot's run log has it."
+        if run is None and error is None and not guarding.moved:
+            told = tell_of_nothing(protocol, place)
+            error = RuntimeError(told)
         try:
-            guarding.end(None if by_itself else RuntimeError(), told)
+            guarding.end(error, told)
         finally:
             ending.close()
-        if by_itself:
+        if error is None:
             guarding.say()
 
-    at_return_of(run or frame, end)
+    if run is None:
+
+        def tell(again: bool) -> None:
+            if place != "block":
+                tell_what_is_covered(protocol, settings, "again" if again else "stack")
+
+        offer(protocol, GuardBlock(end, tell, place_of(file_name), frame))
+    else:
+        offer(protocol, None)
+        at_return_of(run, lambda well: end(None if well else RuntimeError(), "protocol"))
 
 
 def _refuse_second(first: Mapping[str, Any], second: Mapping[str, Any]) -> None:
@@ -196,7 +207,7 @@ def _rehearse_by_running(
 
     _announce_result(protocol, settings, "Layer 1 judges this run at its end.")
     recorder = Recorder() if settings.rules != "off" else None
-    watcher = new_watcher(protocol, settings, file_name)
+    watcher = new_watcher(protocol, settings, file_name, module=module)
     listeners = [listener for listener in (recorder, watcher) if listener is not None]
     if not listeners:
         return call()
@@ -210,7 +221,7 @@ def _rehearse_by_running(
             result = call_watched(call, watcher, tap)
     text = text_of(file_name, protocol)
     values = plain_values(getattr(protocol, "_params", None))
-    recording = Recording(file_name, text, recorder.log, recorder.labware, names.bindings, values)
+    recording = Recording(text, file_name, recorder.log, recorder.labware, names.bindings, values)
     try:
         layer1 = _judge(recording, protocol, settings)
     except AegisError:
@@ -230,9 +241,9 @@ def _preflight(
         ProtocolRejected: Layer 1 found errors, or could not judge the protocol, and ``rules`` is
             ``"on"`` or ``"strict"``.
     """
-    from .guarding import Layer1
+    from .guarding import Layer1, new_planner
     from .preflight.rehearsal import RunPlan, find_script, record
-    from .runtime.runstate import RunState
+    from .runtime.run_state import RunState
 
     earlier = _GUARDS.get(protocol, 0)
     _GUARDS[protocol] = earlier + 1
@@ -244,10 +255,12 @@ def _preflight(
         _announce_result(protocol, settings, layer1.text)
         return layer1
     state, plan = RunState(protocol), RunPlan(earlier)
+    planner = None if settings.sidecar is None else new_planner(plan)
     try:
+        listeners = [plan, planner, None if tips is None else tips.forecast]
         recording = record(
             script,
-            [plan] if tips is None else [plan, tips.forecast],
+            [one for one in listeners if one is not None],
             # The property is refused below apiLevel 2.18.
             live_parameters=getattr(protocol, "_params", None),
             timeout_s=settings.rehearsal_timeout_s,
@@ -255,9 +268,15 @@ def _preflight(
         )
         if tips is not None:
             tips.forecast.complete = True
+        ahead: Mapping[str, Any] = {}
+        if planner is not None:
+            planner.finish()
+            ahead = planner.about(recording.labware)
         if settings.rules == "off":
-            return Layer1("")
-        layer1 = _judge(recording, protocol, settings)._replace(recording=recording, plan=plan)
+            return Layer1("", ahead=ahead)
+        layer1 = _judge(recording, protocol, settings)._replace(
+            recording=recording, plan=plan, ahead=ahead
+        )
     except (ConfigurationError, ProtocolRejected, RuleError):
         raise
     except Exception as error:  # whatever a fault of ours may be
@@ -302,7 +321,7 @@ def _unjudged(error: Exception, protocol: Any, settings: Settings, file_name: st
         ProtocolRejected: Nobody has judged it, and ``rules`` is ``"on"`` or ``"strict"``.
     """
     from .guarding import Layer1
-    from .runtime.runstate import RunState
+    from .runtime.run_state import RunState
 
     fails_itself = isinstance(error, RehearsalError) and not isinstance(error, RehearsalTimeout)
     if isinstance(error, RehearsalError):

@@ -6,7 +6,8 @@ import os
 import sys
 from collections.abc import Callable, Mapping
 from contextlib import ExitStack
-from types import TracebackType
+from contextvars import ContextVar
+from types import MappingProxyType, TracebackType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from .instrumentation import NameCollector, Operation, Tap
@@ -18,7 +19,11 @@ if TYPE_CHECKING:
     from .followed_run import FollowedRun
     from .preflight.judging import Report
     from .preflight.rehearsal import Recording, RunPlan
-    from .runtime import Hands, Watcher
+    from .runtime import Planner, RunControl, Watcher
+
+
+AHEAD: ContextVar[Mapping[str, Any]] = ContextVar("aegis_ot_ahead", default=MappingProxyType({}))
+"""Plates and deliveries of a rehearsal that whoever starts a simulated run has made already."""
 
 
 class Layer1(NamedTuple):
@@ -29,6 +34,7 @@ class Layer1(NamedTuple):
         report: The verdict on the rehearsal, if there is one.
         recording, plan: The rehearsal.
         unjudged: Why there is none; the run is judged as it comes.
+        ahead: Plates and deliveries of the rehearsal, for the sidecar's page.
     """
 
     text: str
@@ -36,6 +42,7 @@ class Layer1(NamedTuple):
     recording: Recording | None = None
     plan: RunPlan | None = None
     unjudged: str = ""
+    ahead: Mapping[str, Any] = MappingProxyType({})
 
     @classmethod
     def none(cls, why: str, settings: Settings) -> Layer1:
@@ -80,7 +87,7 @@ class Guarding:
         self._file_name = file_name
         self._module = module
         self._layer1 = layer1
-        self._watcher = new_watcher(protocol, settings, file_name, layer1, tips)
+        self._watcher = new_watcher(protocol, settings, file_name, layer1, tips, module)
         self._recorder = tips.recorder if tips else Recorder()
         self._followed: FollowedRun | None = None
         self._taken_off = ExitStack()
@@ -112,13 +119,13 @@ class Guarding:
                 watcher.begin(tap)
             self._taken_off = beginning.pop_all()
 
-    def _follow(self, tap: Tap, names: NameCollector, hands: Hands) -> FollowedRun:
+    def _follow(self, tap: Tap, names: NameCollector, hands: RunControl) -> FollowedRun:
         from .followed_run import FollowedRun
-        from .preflight.live_judging import LiveJudge, Surroundings
+        from .preflight.live_judging import LiveJudge, RunKnowledge
         from .preflight.rehearsal import plain_values
 
         layer1 = self._layer1
-        around = Surroundings(
+        around = RunKnowledge(
             self._file_name,
             text_of(self._file_name, self._protocol),
             lambda: names.so_far(self._module),
@@ -160,6 +167,7 @@ def new_watcher(
     file_name: str,
     layer1: Layer1 | None = None,
     tips: KnownTips | None = None,
+    module: Mapping[str, Any] | None = None,
 ) -> Watcher | None:
     """Layer 2, where a sidecar is configured.
 
@@ -172,7 +180,23 @@ def new_watcher(
 
     knowledge = None if tips is None else tips.knowledge
     words = None if layer1 is None else layer1.words()
-    return Watcher(protocol, settings, file_name, words, knowledge, text_of(file_name, protocol))
+    ahead = AHEAD.get() if layer1 is None or not layer1.ahead else layer1.ahead
+    about = {"layer1": words, "title": _title(module or {}), **ahead}
+    return Watcher(protocol, settings, file_name, about, knowledge, text_of(file_name, protocol))
+
+
+def new_planner(plan: RunPlan) -> Planner:
+    """Listens to a rehearsal beside its plan, for the sidecar's page."""
+    from .runtime import Planner
+
+    return Planner(lambda: plan.under)
+
+
+def _title(module: Mapping[str, Any]) -> str:
+    """What the protocol calls itself: ``metadata["protocolName"]``."""
+    metadata = module.get("metadata")
+    name = metadata.get("protocolName") if isinstance(metadata, Mapping) else None
+    return one_line(name, 200) if isinstance(name, str) else ""
 
 
 def text_of(file_name: str, protocol: Any) -> str:
@@ -209,9 +233,21 @@ def say(protocol: Any, layer1: str, watcher: Watcher | None) -> None:
 # At the top level of a notebook's cell or of a program
 
 
-def announce_top_level(protocol: Any, settings: Settings, file_name: str) -> None:
-    """What a guard covers that no function is around."""
-    place = _place_of(file_name)
+_COVERED = {
+    "block": "this guard covers what the `with` block does, with functions from elsewhere. ",
+    "stack": "this guard goes on until its `with` block or stack is closed, in every cell. ",
+    "again": "the earlier guard goes on; from now on it ends with this `with` block or stack. ",
+}
+
+
+def tell_what_is_covered(protocol: Any, settings: Settings, place: str) -> None:
+    """What a guard covers that no function is around.
+
+    Args:
+        protocol: The context.
+        settings: In force.
+        place: ``"cell"``, ``"program"``, ``"block"``, ``"stack"`` or ``"again"``.
+    """
     layer1 = (
         ""
         if settings.rules == "off"
@@ -220,25 +256,28 @@ def announce_top_level(protocol: Any, settings: Settings, file_name: str) -> Non
             "found at the end. "
         )
     )
-    _tell(
-        protocol,
-        f"this guard covers what follows in this {place}, and ends with it. {layer1}"
-        f"What other {place}s do is not guarded: put the steps into one {place}, or into a "
-        "function under @guard.",
-    )
+    covered = f"this guard covers what follows in this {place} only, and ends with it. "
+    text = _COVERED.get(place, covered) + layer1
+    if place == "cell":
+        text += (
+            "What other cells do is not guarded. Write `with guard(protocol):` around calls of "
+            "what other cells define; the docs, Notebooks, show how it lasts for several cells."
+        )
+    _tell(protocol, text.rstrip())
 
 
-def tell_of_nothing(protocol: Any, file_name: str) -> str:
+def tell_of_nothing(protocol: Any, place: str) -> str:
     """What is said of a guard at whose end nothing had moved."""
     text = (
-        f"WARNING: the guard ended with its {_place_of(file_name)} and saw no pipetting: nothing "
-        "was judged, nothing was watched."
+        f"WARNING: the guard ended with its {place} and saw no pipetting: nothing was judged, "
+        "nothing was watched."
     )
     _tell(protocol, text)
     return text
 
 
-def _place_of(file_name: str) -> str:
+def place_of(file_name: str) -> str:
+    """What stands around a top level: ``"program"``, or ``"cell"`` of a notebook."""
     return "program" if os.path.isfile(file_name) and "ipykernel" not in file_name else "cell"
 
 

@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING, Any
 from .settings import Settings
 
 if TYPE_CHECKING:
-    from .instrumentation import Listener
-    from .runtime import Watcher
+    pass
 
 
 class KnownTips:
@@ -39,8 +38,3 @@ def recovers_by_itself(protocol: Any, settings: Settings) -> bool:
     """
     watches = settings.watch_simulation or not protocol.is_simulating()
     return bool(settings.recover) and settings.sidecar is not None and watches
-
-
-def heard_by(watcher: Watcher, tips: KnownTips | None) -> list[Listener]:
-    """The listeners of a run."""
-    return [watcher] if tips is None else [tips.recorder, watcher]

@@ -15,12 +15,13 @@ def door(package: str, names: Mapping[str, str]) -> Callable[[str], Any]:
 
     Args:
         package: Its ``__name__``.
-        names: Each public name with the module of the package that defines it.
+        names: By module of the package the public names that it defines, with spaces between.
     """
+    modules = {name: module for module, those in names.items() for name in those.split()}
 
     def __getattr__(name: str) -> Any:
-        if name not in names:
+        if name not in modules:
             raise AttributeError(f"module {package!r} has no attribute {name!r}")
-        return getattr(import_module(f".{names[name]}", package), name)
+        return getattr(import_module(f".{modules[name]}", package), name)
 
     return __getattr__

@@ -59,44 +59,75 @@ def outermost(frame: FrameType, file_name: str) -> FrameType | None:
     return found
 
 
-def at_return_of(frame: FrameType, action: Callable[[bool], None]) -> None:
+def at_return_of(frame: FrameType, action: Callable[[bool], None]) -> Callable[[], None]:
     """Call ``action`` when ``frame`` returns, with whether it returned by itself.
 
     An exception raised by ``action`` becomes the exception of that function. A protocol may set a
     profiler or a tracer of its own, and take it off again: so there is a hook in either place.
-    """
-    profiler: Any = sys.getprofile()
-    tracer: Any = sys.gettrace()
-    over = False
 
-    def at_end(seen: FrameType) -> None:
-        nonlocal over
-        if over:
+    Returns:
+        Takes the hook off again; ``action`` is not called then.
+    """
+    return _ReturnHook(frame, action).take_off
+
+
+class _ReturnHook:
+    def __init__(self, frame: FrameType, action: Callable[[bool], None]) -> None:
+        self.profiler = _serving(sys.getprofile(), "profiler")
+        self.tracer = _serving(sys.gettrace(), "tracer")
+        self._seen: tuple[FrameType, Callable[[bool], None]] | None = frame, action
+        sys.setprofile(self._profiled)
+        if self.tracer is None:
+            frame.f_trace, frame.f_trace_lines = self._traced_here, False
+            sys.settrace(self._traced)
+
+    @property
+    def is_over(self) -> bool:
+        return self._seen is None
+
+    def take_off(self) -> None:
+        """Let go of the frame, and leave what stood there before: no hook that has ended."""
+        if self._seen is None:
             return
-        over = True
-        if sys.getprofile() is profiled:
-            sys.setprofile(profiler)
-        if sys.gettrace() is traced:
+        frame, self._seen = self._seen[0], None
+        if frame.f_trace == self._traced_here:
+            frame.f_trace = None
+        # Where another one stands over this one, it only passes on from now.
+        profiling, tracing = sys.getprofile(), sys.gettrace()
+        if (profiler := _serving(profiling, "profiler")) is not profiling:
+            if profiler is None or callable(profiler):
+                sys.setprofile(profiler)
+            else:
+                profiler.enable()  # cProfile's
+        if (tracer := _serving(tracing, "tracer")) is not tracing:
             sys.settrace(tracer)
+
+    def _end(self, frame: FrameType) -> None:
+        if self._seen is None or self._seen[0] is not frame:
+            return
+        action = self._seen[1]
+        self.take_off()
         # An exception is told as a return too; the instruction tells them apart.
-        opcode = dis.opname[seen.f_code.co_code[seen.f_lasti]]
+        opcode = dis.opname[frame.f_code.co_code[frame.f_lasti]]
         action(opcode.startswith(("RETURN_", "INSTRUMENTED_RETURN")))
 
-    def profiled(seen: FrameType, event: str, argument: Any) -> None:
-        if callable(profiler):
-            profiler(seen, event, argument)
-        if seen is frame and event == "return":
-            at_end(seen)
+    def _profiled(self, seen: FrameType, event: str, argument: Any) -> None:
+        if callable(self.profiler):
+            self.profiler(seen, event, argument)
+        if event == "return":
+            self._end(seen)
 
-    def traced(_seen: FrameType, _event: str, _argument: Any) -> None:
+    def _traced(self, _seen: FrameType, _event: str, _argument: Any) -> None:
         """Keeps tracing on; of interest is the one frame alone."""
 
-    def traced_here(seen: FrameType, event: str, _argument: Any) -> Any:
+    def _traced_here(self, seen: FrameType, event: str, _argument: Any) -> Any:
         if event == "return":
-            at_end(seen)
-        return traced_here
+            self._end(seen)
+        return self._traced_here
 
-    sys.setprofile(profiled)
-    if tracer is None:
-        frame.f_trace, frame.f_trace_lines = traced_here, False
-        sys.settrace(traced)
+
+def _serving(hook: Any, before: str) -> Any:
+    """A profiler or tracer, or where it is one of ours that has ended, what stood there before."""
+    while isinstance(own := getattr(hook, "__self__", None), _ReturnHook) and own.is_over:
+        hook = getattr(own, before)
+    return hook

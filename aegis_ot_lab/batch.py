@@ -7,16 +7,19 @@ can answer it.
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from aegis_ot.errors import ConfigurationError
+from aegis_ot.preflight.opinion import quote_problem
 from aegis_ot.reasoning.backend import Request, State
 from aegis_ot.reasoning.backends.exporting import ids_by_file, lines_of, read_requests, request_line
 from aegis_ot.reasoning.backends.recording import add_answer, keep_picture
 from aegis_ot.reasoning.schema import problem_of, read_answer
+from aegis_ot.vocabulary import Citation
 
 
 @dataclass(frozen=True)
@@ -125,8 +128,24 @@ def _problem(given: Any, asked: Mapping[str, Mapping[str, Any]]) -> str:
     if asked:
         if key not in asked:
             return f"no request of the exported ones has the id {key[:12]}..."
-        _, problem = read_answer(given["answer"], asked[key]["schema"])
+        answer, problem = read_answer(given["answer"], asked[key]["schema"])
+        problem = problem or _misquoted(answer or {}, asked[key])
         return f"{problem}." if problem else ""
+    return ""
+
+
+_SOURCE_LINE = re.compile(r"^(\d+)\|(.*)$", re.M)
+
+
+def _misquoted(answer: Mapping[str, Any], request: Mapping[str, Any]) -> str:
+    """The first quote for a role that does not stand in the source where the answer says so."""
+    parts = (part for message in request["messages"] for part in message["parts"])
+    text = "\n".join(str(part.get("text", "")) for part in parts)
+    lines = [line for _, line in _SOURCE_LINE.findall(text)]
+    for proposal in answer.get("roles", ()):
+        for said in proposal["citations"]:
+            if problem := quote_problem(Citation(said["line"], said["quote"]), lines):
+                return f"role {proposal['role']!r}: {problem}"
     return ""
 
 

@@ -19,7 +19,7 @@ from aegis_ot.dryrun import TRUSTING
 from aegis_ot.fleet.agent import AegisAgent
 from aegis_ot.fleet.config import FleetConfig, RobotConfig
 from aegis_ot.fleet.coordinator import run_fleet
-from aegis_ot.fleet.jobs import Job, Needs
+from aegis_ot.fleet.jobs import Job, JobNeeds
 from aegis_ot.fleet.report import FleetReport
 from aegis_ot.fleet.schedule import least_s, longest_first_s
 from aegis_ot.fleet.sessions import SimulatedSession, Watch
@@ -76,7 +76,7 @@ _PIPETTES = (("p300_single_gen2", 300, 200), ("p1000_single_gen2", 1000, 400))
 
 
 @dataclass(frozen=True)
-class Task:
+class ScalingTask:
     """A protocol of the workload, and what the two layers should say of it.
 
     Attributes:
@@ -119,7 +119,7 @@ class Point:
     detected: int
 
 
-def workload(seed: int = 0) -> list[Task]:
+def workload(seed: int = 0) -> list[ScalingTask]:
     """16 protocols: 4 with an error of Layer 1, 10 with a planted fault, 2 without."""
     tasks = [
         _task(f"contaminates-{ntc}.py", _CONTAMINATES.format(ntc=ntc), "rejected")
@@ -142,11 +142,11 @@ def workload(seed: int = 0) -> list[Task]:
     return tasks
 
 
-def _task(name: str, text: str, truth: str, faults: tuple[str, ...] = ()) -> Task:
-    return Task(Job(name, Script(text, name), Needs("OT-2"), 0.0, faults), truth)
+def _task(name: str, text: str, truth: str, faults: tuple[str, ...] = ()) -> ScalingTask:
+    return ScalingTask(Job(name, Script(text, name), JobNeeds("OT-2"), 0.0, faults), truth)
 
 
-def judge_live(tasks: Sequence[Task], robots: int = 2) -> FleetReport:
+def judge_live(tasks: Sequence[ScalingTask], robots: int = 2) -> FleetReport:
     """Both layers on every protocol, on so many simulated robots in this process."""
 
     def agent(robot: RobotConfig) -> AegisAgent:
@@ -156,7 +156,11 @@ def judge_live(tasks: Sequence[Task], robots: int = 2) -> FleetReport:
 
 
 def sweep(
-    tasks: Sequence[Task], live: FleetReport, robots: Sequence[int], scale: float, rounds: int = 1
+    tasks: Sequence[ScalingTask],
+    live: FleetReport,
+    robots: Sequence[int],
+    scale: float,
+    rounds: int = 1,
 ) -> list[Point]:
     """Play a workload back on fleets of several sizes.
 
@@ -201,15 +205,15 @@ def _robots(count: int) -> FleetConfig:
     return FleetConfig(robot=tuple(RobotConfig(name=f"robot-{n + 1}") for n in range(count)))
 
 
-def _copy(task: Task, number: int) -> Task:
+def _copy(task: ScalingTask, number: int) -> ScalingTask:
     if number == 0:
         return task
     name = f"{task.job.name}#{number}"
     script = Script(task.job.script.text, name)
-    return Task(Job(name, script, task.job.needs, 0.0, task.job.faults), task.truth)
+    return ScalingTask(Job(name, script, task.job.needs, 0.0, task.job.faults), task.truth)
 
 
-def _latencies(tasks: Sequence[Task], scale: float) -> dict[str, float]:
+def _latencies(tasks: Sequence[ScalingTask], scale: float) -> dict[str, float]:
     """Of a model's answer on each protocol, s; the same whatever the fleet."""
     return {
         task.job.name: random.Random(task.job.name).uniform(*LATENCY_S) / scale for task in tasks

@@ -19,7 +19,9 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 from .figure import Figure
 from .vision_data import folders
 
-GROUPS = ("guard", "protocols", "keyframe", "import", "layer1", "camera", "vision", "quality")
+GROUPS = (
+    "guard", "protocols", "keyframe", "import", "layer1", "camera", "record", "vision", "quality",
+)  # fmt: skip
 
 
 def main() -> None:
@@ -58,6 +60,7 @@ def _groups(
         keyframe_cost,
         layer1_cost,
         public_protocols,
+        record_cost,
         simulated_camera,
         vision_cost,
         vision_quality,
@@ -70,6 +73,7 @@ def _groups(
         "import": import_time.figures,
         "layer1": layer1_cost.figures,
         "camera": simulated_camera.figures,
+        "record": record_cost.figures,
         "vision": lambda: vision_cost.figures(datasets),
         "quality": lambda: vision_quality.figures(datasets),
     }

@@ -8,7 +8,7 @@ import tempfile
 import time
 from collections.abc import Iterator
 
-from aegis_ot.runtime.link import SidecarLink
+from aegis_ot.runtime.sidecar_client import SidecarClient
 from aegis_ot.vocabulary import Keyframe, KeyframeKind, WellRef
 
 from .figure import Figure
@@ -43,7 +43,7 @@ def measure() -> tuple[list[float], list[float]]:
         tempfile.TemporaryDirectory() as data,
         sidecar_process("--camera", "pattern", "--port", "0", "--data", data) as (url, _),
     ):
-        link = SidecarLink(url, None, lambda: None)
+        link = SidecarClient(url, None, lambda: None)
         link.start(_RUN, about(), 10)
         for number in range(KEYFRAMES + 4):
             keyframe = make_keyframe(_RUN, number)

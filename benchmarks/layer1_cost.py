@@ -62,14 +62,14 @@ def check(path: Path) -> None:
 
 def _verdict_share(path: Path) -> float:
     """Time of the verdict, rules loaded, over the time of the rehearsal."""
-    from aegis_ot.preflight import Reading, judge, load_database, record
+    from aegis_ot.preflight import Interpretation, judge, load_rules, record
     from aegis_ot.preflight.rehearsal import Script
 
-    script, database = Script(path.read_text(), path.name), load_database()
+    script, rule_set = Script(path.read_text(), path.name), load_rules()
     begun = time.process_time()
     recording = record(script)
     rehearsed = time.process_time()
-    judge(Reading(recording, database))
+    judge(Interpretation(recording, rule_set))
     return (time.process_time() - rehearsed) / (rehearsed - begun)
 
 

@@ -23,7 +23,7 @@ from pathlib import Path
 import cv2
 import numpy as np
 
-from aegis_ot.vision.column.measure import look_at_tip, measure_column
+from aegis_ot.vision.column import Reference, TipShape, look_at_tip, read_column
 from aegis_ot.vision.detection import HeatmapDetector
 from aegis_ot.vision.outlines import Outlines
 from aegis_ot.vision.rows.finder import RowFinder, SeenRow
@@ -167,11 +167,7 @@ def judge_labelled(root: Path, detector: HeatmapDetector) -> None:
         if frame.volume_ul:
             drawn += [volume / frame.volume_ul - 1.0 for volume in drawn_volumes(frame)]
             off += [
-                measure_column(
-                    frame.image, tip, PIPETTE, expected_ul=frame.volume_ul, capacity_ul=300.0
-                ).volume_ul
-                / frame.volume_ul
-                - 1.0
+                volume_read(frame.image, tip, frame.volume_ul) / frame.volume_ul - 1.0
                 for tip in row.tips
                 if tip is not None and hits([tip], frame.tips)
             ]
@@ -183,6 +179,16 @@ def judge_labelled(root: Path, detector: HeatmapDetector) -> None:
         )
     tell("columns of known volume", off)
     tell("the same as drawn by hand", drawn)
+
+
+def volume_read(
+    image: Image, tip: TipDetection, expected_ul: float, shape: TipShape | None = None
+) -> float:
+    """Of the column in a tip that should hold so much, µL."""
+    geometry = tip_for(PIPETTE, 300.0)
+    profile = look_at_tip(image, tip, geometry, shape=shape).profile
+    top = read_column(profile, geometry, expected_ul, Reference()).top
+    return geometry.volume_of((1.0 - top) * geometry.length_mm)
 
 
 def tell(what: str, errors: Sequence[float]) -> None:
@@ -225,10 +231,7 @@ def columns(
         image, row = seen[number]
         for channel, tip in enumerate(row.tips):
             if tip is not None and channel not in EMPTY.get(number, ()):
-                column = measure_column(
-                    image, tip, PIPETTE, expected_ul=volume, capacity_ul=300.0, shape=shape
-                )
-                yield place, column.volume_ul, volume
+                yield place, volume_read(image, tip, volume, shape), volume
 
 
 def calibrated(read: Sequence[tuple[int, float, float]]) -> Iterator[float]:

@@ -26,7 +26,7 @@ from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from .recovery_protocols import CASES, Case
+from .recovery_protocols import CASES, RuleContext
 
 RECOVER = {"no_aspirate": "retry", "no_dispense": "retry", "partial_dispense": "top_up"}
 CARRY_RULES = (
@@ -74,7 +74,7 @@ def measure(count: int, first: int) -> Iterator[Trial]:
             yield _trial(case, seed)
 
 
-def _trial(case: Case, seed: int) -> Trial:
+def _trial(case: RuleContext, seed: int) -> Trial:
     chance = random.Random(f"{case.name}{seed}")
     places = sorted(chance.sample(range(len(case.wells)), chance.randint(1, 3)))
     kinds = [chance.choice(KINDS) for _ in places]
@@ -102,13 +102,13 @@ def _run(
     text: str, faults: Sequence[str], seed: int, recover: dict[str, str]
 ) -> tuple[Any, list[Any]]:
     """The dry run, and every operation that the simulated robot did."""
-    from aegis_ot.dryrun import TRUSTING, DryRunSettings, Progress, dry_run
+    from aegis_ot.dryrun import TRUSTING, DryRunProgress, DryRunSettings, dry_run
     from aegis_ot.preflight.rehearsal import Recorder, Script
     from aegis_ot.sidecar import make_analyser
 
     recorder = Recorder()
 
-    class Heard(Progress):
+    class Heard(DryRunProgress):
         def moves(self, operation: Any) -> None:
             recorder.after(operation)
 
@@ -121,7 +121,7 @@ def _run(
 
 
 def _contaminations(
-    case: Case, faults: Sequence[str], steps: list[Any]
+    case: RuleContext, faults: Sequence[str], steps: list[Any]
 ) -> tuple[tuple[str, ...], tuple[str, ...]]:
     from aegis_ot.instrumentation import Event
     from aegis_ot.preflight.check_protocol import check_recording

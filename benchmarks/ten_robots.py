@@ -22,7 +22,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from aegis_ot.runtime.link import SidecarLink
+from aegis_ot.runtime.sidecar_client import SidecarClient
 from aegis_ot.sidecar.store import Store
 from aegis_ot.vocabulary import KeyframeKind
 
@@ -124,7 +124,7 @@ def _load(url: str, pid: int, seconds: float, robots: int) -> tuple[list[Heard],
 def _drive(url: str, heard: Heard, begin: float, seconds: float) -> None:
     """A robot: at each full second of its own a keyframe; after the fourth it waits to go on."""
     rng = random.Random(heard.run)
-    link = SidecarLink(url, None, lambda: None)
+    link = SidecarClient(url, None, lambda: None)
     due = begin + rng.uniform(0, 1)
     try:
         link.start(heard.run, about(heard.run), 10)

@@ -34,8 +34,9 @@ import numpy as np
 
 from aegis_ot.account import state_of
 from aegis_ot.errors import AegisError, CameraError, SidecarUnreachable
-from aegis_ot.runtime import Watcher, courier
-from aegis_ot.runtime.link import SidecarLink
+from aegis_ot.runtime import Watcher
+from aegis_ot.runtime import keyframe_sender as sender
+from aegis_ot.runtime.sidecar_client import SidecarClient
 from aegis_ot.runtime.steps import Capture, Hold
 from aegis_ot.settings import Settings
 from aegis_ot.sidecar import Judged, SidecarConfig, running_sidecar
@@ -54,6 +55,17 @@ TROUBLES = ("slow", "slow", "dead", "hanging", "old")
 _DIRECT = urllib.request.build_opener(urllib.request.ProxyHandler({}))
 _IMAGE = np.full((8, 8, 3), 100, np.uint8)
 _JPEG = encode_jpeg(_IMAGE)
+_COMMENT = b"\xff\xd8\xff\xfe\x00\x0a"
+"""A JPEG's beginning with a comment of eight characters: a whole picture that a restarted sidecar
+reads again."""
+
+
+def _numbered(number: int) -> bytes:
+    return _COMMENT + f"{number:08d}".encode() + _JPEG[2:]
+
+
+def _number(frame: bytes) -> int:
+    return int(frame[len(_COMMENT) :][:8])
 
 
 class Camera:
@@ -81,7 +93,7 @@ class Camera:
         at = time.monotonic() - (1.0 if self.mood == "old" else 0.0)
         number = next(self._numbers)
         self.exposed[number] = at
-        return Frame(_JPEG + f"{number:08d}".encode(), _IMAGE, at)
+        return Frame(_numbered(number), _IMAGE, at)
 
     def close(self) -> None:
         """Nothing to let go of."""
@@ -265,10 +277,10 @@ def _faults(rng: random.Random, happened: Counter[str]) -> Iterator[None]:
 
 
 _FAULTS = threading.local()
-_REQUEST = SidecarLink._request
+_REQUEST = SidecarClient._request
 
 
-def _faulty(link: SidecarLink, *request: Any) -> dict[str, Any]:
+def _faulty(link: SidecarClient, *request: Any) -> dict[str, Any]:
     rng = getattr(_FAULTS, "rng", None)
     fate = 1.0 if rng is None else rng.random()
     if fate < 0.03:
@@ -293,7 +305,7 @@ def drawn(runs: int, seed: int, says: Callable[[str], None] = print) -> list[str
     wrong: list[str] = []
     happened: Counter[str] = Counter()
     numbers = itertools.count()
-    with mock.patch.object(SidecarLink, "_request", _faulty), _impatient():
+    with mock.patch.object(SidecarClient, "_request", _faulty), _impatient():
         for first in range(0, runs, EACH):
             rng = random.Random(f"{seed} {first}")
             count = min(EACH, runs - first)
@@ -342,7 +354,7 @@ def _seen(workstation: Workstation) -> Iterator[tuple[str, dict[str, Any], list[
         for entry in _ask(f"{workstation.url}/v1/runs/{run}")["trajectories"]:
             if state_of(entry) in ("pass", "calibration"):
                 frames = [_get(workstation.url + k["frame"]) for k in entry["keyframes"]]
-                yield run, entry, [int(frame[-8:]) if frame else -1 for frame in frames]
+                yield run, entry, [_number(frame) if frame else -1 for frame in frames]
 
 
 def _unseen(
@@ -382,7 +394,7 @@ def _unseen(
 @contextlib.contextmanager
 def _impatient() -> Iterator[None]:
     """Robots look for a lost sidecar sooner than they do in a laboratory."""
-    with mock.patch.multiple(courier, _FIRST_REST_S=0.05, _LONGEST_REST_S=0.2, _CATCH_UP_S=0.3):
+    with mock.patch.multiple(sender, _FIRST_REST_S=0.05, _LONGEST_REST_S=0.2, _CATCH_UP_S=0.3):
         yield
 
 

@@ -21,13 +21,46 @@ p300.consolidate(50, sources, pool)
 for source, row in zip(sources, plate.rows()):
     p300.distribute(40, source, row[:2])
 
-# GEN-1 fails: one tip for all sources
+# GEN-1 warns: one tip for all sources, which only a variable names
 p300.transfer(50, sources, destinations, new_tip="once")
+
+# GEN-1 fails: one tip for all sources, each loaded under a name of its own
+for number, source in enumerate(sources):
+    source.load_liquid(protocol.define_liquid(f"lysate {number}", "", "#cc9966"), 900)
+p300.transfer(50, sources, destinations, new_tip="once")
+
+# GEN-1 fails: one tip mixes what stands in the destinations, from a labelled rack
+patients = protocol.load_labware("opentrons_24_tuberack_nest_2ml_snapcap", 9, "patient samples")
+p300.transfer(50, patients.wells()[:3], destinations, new_tip="always")
+p300.pick_up_tip()
+for destination in destinations:
+    p300.mix(2, 30, destination)
+p300.drop_tip()
+
+# GEN-1 passes: one tip for three tubes of one reagent, each for two wells
+for source in sources:
+    source.load_liquid(protocol.define_liquid("antibody", "", "#ffffff"), 900)
+p300.pick_up_tip()
+for source, row in zip(sources, plate.rows()):
+    p300.transfer(50, source, row[:2], new_tip="never")
+p300.drop_tip()
+
+# GEN-1 fails: one tip for samples that share their liquid's name
+for source in sources:
+    source.load_liquid(protocol.define_liquid("Sample", "", "#ffffff"), 900)
+p300.transfer(50, sources, destinations, new_tip="once")
+
+# GEN-1 passes: the moves are tried out, and all goes back where it came from
+p300.pick_up_tip()
+for well in [*sources, *destinations]:
+    p300.aspirate(50, well)
+    p300.dispense(50, well)
+p300.drop_tip()
 
 # GEN-1 warns: one tip for all of them, and nothing says what they are
 p300.transfer(50, deepwell.rows()[0][:3], plate.rows()[0][:3], new_tip="once")
 
-# GEN-1 fails: the tip is dropped outside the loop
+# GEN-1 warns: the tip is dropped outside the loop, which only a variable names
 p300.pick_up_tip()
 for source, destination in zip(sources, destinations):
     p300.aspirate(50, source)
@@ -35,7 +68,7 @@ for source, destination in zip(sources, destinations):
     p300.blow_out()
 p300.drop_tip()
 
-# GEN-1 fails: one tip mixes what stands in the destinations
+# GEN-1 warns: one tip mixes what stands in the destinations, which only a variable names
 p300.transfer(50, sources, destinations, new_tip="always")
 p300.pick_up_tip()
 for destination in destinations:
@@ -175,7 +208,7 @@ p300.transfer(61, samples[0], targets[:2], new_tip="always")
 # deck
 source_rack, dest_plate = tubes, plate
 
-# GEN-1 fails: one tip for all sources, which their labware names
+# GEN-1 warns: one tip for all sources, named by the rack's variable alone
 p300.transfer(50, source_rack.wells()[:3], dest_plate.wells()[:3], new_tip="once")
 
 # deck

@@ -33,6 +33,12 @@ m300.transfer(40, tubes["A1"], deepwell["A1"], new_tip="always")
 # HND-2 passes: just above the bottom
 p300.transfer(50, buffer, plate["A1"].bottom(0.5))
 
+# HND-2 passes: counted from the top, and inside
+p300.transfer(50, buffer, plate["A1"].top(-10))
+
+# HND-2 fails: far below the bottom
+p300.transfer(50, buffer, deepwell["A1"].bottom(-3))
+
 # HND-2 fails: deeper than the well is, counted from its top
 p300.transfer(50, buffer, plate["A1"].top(-20))
 
@@ -41,6 +47,9 @@ p300.transfer(50, plate["A1"].bottom(-0.5), plate["B1"])
 
 # HND-3 passes: repetitions, then the volume
 p300.transfer(50, buffer, plate["A1"], mix_after=(3, 40))
+
+# HND-3 passes: a few µL with the pipette that is made for them
+p20.transfer(4, tubes["A1"], plate.rows()[0][:3], new_tip="always")
 
 # HND-3 warns: the volume, then the repetitions
 p300.transfer(60, buffer, plate["A1"], mix_after=(40, 3))
@@ -74,6 +83,16 @@ for well in plate.rows()[0][:4]:
     p300.dispense(80, well)
 p300.drop_tip()
 
+# HND-4 fails: distribute ends at the first well, whose share has no room in a smaller tip
+filters = protocol.load_labware("opentrons_96_filtertiprack_200ul", 9)
+p300.tip_racks = [filters]
+p300.distribute(190, buffer, deepwell.rows()[0][:6])
+
+# HND-4 passes: distribute with room for the disposal volume
+filters = protocol.load_labware("opentrons_96_filtertiprack_200ul", 9)
+p300.tip_racks = [filters]
+p300.distribute(90, buffer, deepwell.rows()[0][:6])
+
 # HND-4 warns: the air gap leaves first, and 20 of 80 µL stay in the tip
 p300.pick_up_tip()
 p300.aspirate(80, buffer)
@@ -92,6 +111,19 @@ p300.drop_tip()
 p300.transfer(50, buffer, plate.rows()[0][:6], new_tip="once")
 p300.consolidate(30, plate.rows()[0][:6], tubes["D6"])
 
+# HND-5 passes: the plate was filled by hand, and the run only adds a reaction's last part
+p300.transfer(10, buffer, plate.rows()[0][:6], new_tip="always", mix_after=(2, 20))
+
+# HND-5 warns: row A is filled, and row B given on
+p300.transfer(50, buffer, plate.rows()[0][:6], new_tip="once")
+p300.transfer(30, plate.rows()[1][:6], deepwell.rows()[0][:6], new_tip="always")
+
+# HND-5 warns: a well is mixed that nothing was put into
+p300.transfer(50, buffer, plate.rows()[0][:6], new_tip="once")
+p300.pick_up_tip()
+p300.mix(3, 30, plate["A7"])
+p300.drop_tip()
+
 # HND-5 warns: six wells are filled, and eight pooled
 p300.transfer(50, buffer, plate.rows()[0][:6], new_tip="once")
 p300.consolidate(30, plate.rows()[0][:8], tubes["D6"])
@@ -99,6 +131,14 @@ p300.consolidate(30, plate.rows()[0][:8], tubes["D6"])
 # HND-6 passes: two tubes for 48 wells
 for tube, rows in zip(tubes.wells(), (plate.rows()[:2], plate.rows()[2:4])):
     p300.transfer(60, tube, rows, new_tip="once")
+
+# HND-6 passes: what is drawn to mix goes back
+for _ in range(3):
+    p300.transfer(200, tubes["A1"], deepwell["A1"], mix_before=(5, 250))
+
+# HND-6 fails: a channel of a reservoir for more than it holds
+for column in range(4):
+    m300.transfer(250, reservoir["A1"], [deepwell.rows()[0][column]] * 3, new_tip="once")
 
 # HND-6 fails: one 2 mL tube for 48 wells
 p300.transfer(60, tubes["A1"], plate.rows()[:4], new_tip="once")

@@ -13,6 +13,7 @@ from aegis_ot.preflight.rules import Family
 from aegis_ot.settings import Settings
 from aegis_ot.sidecar.config import ENVIRONMENT, SidecarConfig
 from scripts.cli_reference import root
+from scripts.sentences import MOST, MOST_ON_AVERAGE, measured, pages, sentences, words
 
 ROOT = Path(__file__).resolve().parent.parent
 PAGES = sorted([ROOT / "README.md", *(ROOT / "docs").rglob("*.md")])
@@ -95,6 +96,45 @@ def test_rule_files_are_told_of_with_all_their_fields():
     plain = {"family", "title", "description", "schema", "path"}
     for name in {field.name for field in fields(Family)} - plain:
         assert f"`{name}`" in part, name
+
+
+def test_the_action_installs_extras_that_exist_and_calls_a_command_that_exists():
+    yaml = pytest.importorskip("yaml")
+    action = yaml.safe_load((ROOT / "action.yml").read_text(encoding="utf-8"))
+    install, check = (step["run"] for step in action["runs"]["steps"])
+    assert "$GITHUB_ACTION_PATH[$ROBOT,check]" in install
+    _, command, option, form, *rest = check.split()
+    assert (option, form, rest) == ("--format", "github", ["$ARGUMENTS", "$FILES"])
+    assert command in root().commands
+    said = (ROOT / "docs" / "how-to" / "ci.md").read_text(encoding="utf-8")
+    assert set(action["inputs"]) <= set(re.findall(r"\w+", said))
+
+
+def test_no_page_names_an_address_that_nobody_has_given():
+    for page in (*PAGES, ROOT / "mkdocs.yml", ROOT / "action.yml"):
+        assert "example.org" not in page.read_text(encoding="utf-8"), page
+
+
+def test_readme_tutorial_and_how_tos_are_read_once():
+    lengths = []
+    for page in pages():
+        _, longest, too_long = measured(page)
+        assert longest <= MOST, f"{page}: {too_long}"
+        lengths += [words(one) for one in sentences(page.read_text(encoding="utf-8"))]
+    assert sum(lengths) / len(lengths) <= MOST_ON_AVERAGE
+
+
+@pytest.mark.parametrize(
+    ("text", "lengths"),
+    [
+        ("One two. Three four five.\n\n# A heading\n\n| a | table |\n", [2, 3]),
+        ("- An item\n- of a [list](link.md) with `some code of one word`.\n", [2, 5]),
+        ("It says: *B3 got nothing.* Then 2.5 µL are left; and so on.\n", [2, 3, 8]),
+        ("```sh\nno prose at all\n```\n", []),
+    ],
+)
+def test_sentences_are_counted_as_a_reader_reads_them(text, lengths):
+    assert [words(one) for one in sentences(text)] == lengths
 
 
 def test_the_pre_commit_hook_calls_a_command_that_exists_with_extras_that_exist():

@@ -74,9 +74,9 @@ ALL = protocols(
     EXAMPLES / "benchmark-multi",
     EXAMPLES / "demo",
     PROTOCOLS / "transparency",
-    PROTOCOLS / "public_style",
 )
 ALL += protocols(EXAMPLES / "prose-benchmark")[::10]  # all of them have been rehearsed
+# Those in public style are rehearsed by tests/preflight/test_public_style.py.
 
 
 @pytest.mark.parametrize("path", ALL, ids=short)

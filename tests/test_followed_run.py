@@ -36,6 +36,14 @@ ENDS_EARLIER = """
 wells = plate.wells()[:3 if protocol.is_simulating() else 2]
 p300.transfer(50, tubes["A1"], wells, new_tip="always")
 """
+TOUCHES = """
+p300.transfer(40, tubes["A1"], plate["A1"])
+p300.pick_up_tip()
+p300.aspirate(40, tubes["A2"])
+well = plate["A1"]
+p300.dispense(40, well.{rehearsed} if protocol.is_simulating() else well.bottom(1))
+p300.drop_tip()
+"""
 
 
 def comments(run: LiveRun) -> list[str]:
@@ -65,6 +73,11 @@ class TestOtherwise:
             (SHUFFLED, r"dispenses 50 µL into H1 of plate .*rehearsal .* into A1 of plate"),
             (NOTHING_REHEARSED, r"picks up a tip at line \d+, where the rehearsal moved nothing"),
             (ENDS_EARLIER, r"it ended where in the rehearsal the left pipette picks up a tip"),
+            (
+                TOUCHES.format(rehearsed="top(5)"),
+                r"A1 of plate .*, 1 mm above its bottom, at line \d+, where .* 5 mm above its top,",
+            ),
+            (TOUCHES.format(rehearsed="top(-1)"), r"above its bottom, at .* mm above its bottom,"),
         ],
     )
     def test_it_says_so_at_the_end_and_no_pass(self, form, body, how):

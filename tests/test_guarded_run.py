@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+import cProfile
+import gc
 import sys
+import weakref
 
 import pytest
 
+from aegis_ot.errors import ConfigurationError
+from aegis_ot.guarded_run import is_guarded
 from tests.runtime.fake_sidecar import FakeSidecar
 from tests.runtime.live import LiveRun
 from tests.test_followed_run import comments
@@ -155,10 +160,15 @@ def in_cells(*cells: str) -> list[str]:
     return [line for line in names["protocol"].commands() if "aegis_ot" in line]
 
 
+def last_of(told: list[str]) -> str:
+    return told[-1]
+
+
 class TestTopLevel:
     def test_it_says_at_once_what_it_covers(self, capfd):
         told = in_cells(SETUP.format(settings=""), STEPS)
-        assert "covers what follows in this cell" in told[0]
+        assert "covers what follows in this cell only" in told[0]
+        assert "with guard(protocol):" in told[0], "what serves calls into other cells"
         assert "this cell" in capfd.readouterr().err
 
     def test_a_guard_that_saw_nothing_warns_and_is_no_success(self, capfd):
@@ -196,3 +206,143 @@ class TestTopLevel:
         )
         told = in_cells(SETUP.format(settings=', on_fail="abort"') + pooled)
         assert "judged as it ran" in told[-1]
+
+
+AROUND = (
+    SETUP.format(settings="{settings}")
+    .replace("protocol = guard(protocol, ", "keywords = dict(")
+    .replace("from aegis_ot", "from contextlib import ExitStack\nfrom aegis_ot")
+)
+HELPER = "def fill(well):\n    p300.transfer(50, plate['A1'], plate[well])\n"
+BLOCK = "with guard(protocol, **keywords):\n    fill('B3')\n    fill('B4')\n"
+
+
+def watched_in_cells(*cells: str) -> tuple[list[str], list[dict], int]:
+    """The guard's words, how its runs ended, and how many keyframes it sent."""
+    with FakeSidecar() as sidecar:
+        settings = f', sidecar="{sidecar.url}", watch_simulation=True'
+        told = in_cells(AROUND.format(settings=settings), HELPER, *cells)
+        return told, sidecar.finished, sum(map(len, sidecar.keyframes.values()))
+
+
+class TestBlock:
+    """``with guard(protocol):`` guards what the block does, wherever that was written."""
+
+    def test_it_covers_calls_into_other_cells_and_ends_with_the_block(self):
+        told, finished, keyframes = watched_in_cells(BLOCK, "fill('B5')")
+        assert [one["outcome"] for one in finished] == ["succeeded"]
+        assert keyframes == 8, "four a delivery; the last one is not guarded"
+        assert "the `with` block does" in told[0]
+        assert "Layer 2 watched 2 deliveries: 2 passed" in told[-1]
+        assert not any("cell" in line for line in told)
+
+    def test_the_robot_does_the_same_with_it_and_without(self):
+        def moves(*cells: str) -> list[str]:
+            names: dict = {"__name__": "__main__"}
+            for number, cell in enumerate((AROUND.format(settings=""), HELPER, *cells)):
+                exec(compile(cell, f"<ipython-input-{number}>", "exec"), names)
+            return [line for line in names["protocol"].commands() if "aegis_ot" not in line]
+
+        block = "with guard(protocol, **keywords) as same:\n    assert same is protocol\n"
+        assert moves(block + "    fill('B3')\n") == moves("fill('B3')")
+
+    def test_an_exception_leaves_the_block_as_it_is_and_the_run_is_no_success(self):
+        block = BLOCK + "    raise KeyError('mine')"
+        with FakeSidecar() as sidecar:
+            settings = f', sidecar="{sidecar.url}", watch_simulation=True'
+            with pytest.raises(KeyError, match="mine"):
+                in_cells(AROUND.format(settings=settings), HELPER, block)
+            (finished,) = sidecar.finished
+        assert (finished["outcome"], finished["detail"]) == ("failed", "KeyError: 'mine'")
+
+    def test_an_error_of_layer_1_comes_out_of_the_block(self):
+        block = "with guard(protocol, **keywords):\n    " + OVERFULL
+        with pytest.raises(Exception, match="GEN-3"):
+            in_cells(AROUND.format(settings=', on_fail="abort"'), block)
+
+    def test_a_second_one_inside_changes_nothing_and_ends_nothing(self):
+        inner = BLOCK.replace("fill('B3')", "with guard(protocol):\n        fill('B3')")
+        told, finished, _ = watched_in_cells(inner)
+        assert [one["outcome"] for one in finished] == ["succeeded"]
+        assert "watched 2 deliveries" in told[-1]
+
+    def test_blocks_after_one_another_are_runs_of_their_own(self):
+        _, finished, _ = watched_in_cells(BLOCK, BLOCK)
+        assert [one["outcome"] for one in finished] == ["succeeded"] * 2
+
+    def test_an_exit_stack_carries_it_over_cells(self):
+        first = "guarded = ExitStack()\nguarded.enter_context(guard(protocol, **keywords))\n"
+        told, finished, _ = watched_in_cells(first, "fill('B3')", "fill('B4')", "guarded.close()")
+        assert [one["outcome"] for one in finished] == ["succeeded"]
+        assert "until its `with` block or stack is closed" in told[1]
+        assert "watched 2 deliveries: 2 passed" in told[-1]
+
+    def test_a_set_up_cell_that_runs_again_holds_the_guard_that_goes_on(self):
+        first = "guarded = ExitStack()\nguarded.enter_context(guard(protocol, **keywords))\n"
+        told, finished, _ = watched_in_cells(
+            first, first, "fill('B3')\nguarded.close()", "fill('B4')"
+        )
+        assert [one["outcome"] for one in finished] == ["succeeded"]
+        assert "the earlier guard goes on" in told[2]
+        assert "watched 1 deliveries: 1 passed" in told[-1]
+
+    def test_a_with_inside_such_a_stack_does_not_end_it(self):
+        first = "guarded = ExitStack()\nguarded.enter_context(guard(protocol, **keywords))\n"
+        told, finished, _ = watched_in_cells(first, BLOCK, "fill('B5')\nguarded.close()")
+        assert [one["outcome"] for one in finished] == ["succeeded"]
+        assert "watched 3 deliveries" in told[-1]
+
+    def test_no_hook_outlives_its_block(self):
+        """Hundreds of blocks in one cell, too: their hooks would stand on one another."""
+        before = sys.gettrace(), sys.getprofile()
+        names: dict = {"seen": [], "sys": sys, "__name__": "__main__"}
+        block = (
+            "for _ in range(3):\n    with guard(protocol, **keywords):\n"
+            "        seen.append((sys.gettrace(), sys.getprofile()))\n"
+        )
+        exec(compile(AROUND.format(settings="") + block, "<ipython-input-0>", "exec"), names)
+        assert names["seen"] == [before] * 3
+        assert (sys.gettrace(), sys.getprofile()) == before
+
+    def test_a_profile_of_all_goes_on_behind_the_guard(self):
+        with cProfile.Profile() as profile:
+            told = in_cells(SETUP.format(settings="") + STEPS)
+            assert "judged as it ran: 0 errors" in last_of(told)
+        assert last_of.__code__ in [one.code for one in profile.getstats()]
+
+    def test_guards_of_two_contexts_end_with_their_cell_and_leave_no_hook(self):
+        before = sys.gettrace(), sys.getprofile()
+        cell = SETUP.format(settings="")
+        names: dict = {"__name__": "__main__"}
+        cell = cell + "first = protocol\n" + cell
+        exec(compile(cell, "<ipython-input-0>", "exec"), names)
+        assert not is_guarded(names["first"])
+        assert not is_guarded(names["protocol"])
+        assert (sys.gettrace(), sys.getprofile()) == before
+
+    @pytest.mark.parametrize("cell", [SETUP, AROUND + "with guard(protocol):\n    pass\n"])
+    def test_a_context_whose_guard_has_ended_is_let_go(self, cell):
+        names: dict = {"__name__": "__main__"}
+        exec(compile(cell.format(settings=""), "<ipython-input-0>", "exec"), names)
+        context = weakref.ref(names["protocol"])
+        names.clear()
+        gc.collect()
+        assert context() is None
+
+    def test_a_guard_that_has_ended_with_its_cell_is_not_taken_up_again(self):
+        with pytest.raises(ConfigurationError, match="has ended with its cell"):
+            in_cells(SETUP.format(settings="") + STEPS, "with protocol:\n    pass\n")
+
+    def test_a_context_without_a_guard_goes_into_no_with(self):
+        used = "with guard(protocol, **keywords):\n    " + STEPS
+        with pytest.raises(TypeError, match="without a guard"):
+            in_cells(AROUND.format(settings=""), used, "with protocol:\n    pass\n")
+
+    def test_in_a_run_the_guard_lasts_as_long_as_the_function(self):
+        body = "with guard(protocol{}):\n    " + GOOD + "\n" + GOOD
+        with FakeSidecar() as sidecar:
+            settings = f', sidecar="{sidecar.url}", watch_simulation=True'
+            text = protocol(body.format(settings), "", "call")
+            lines = simulated(text.replace("protocol = guard(protocol, )", "pass"))
+            assert [one["outcome"] for one in sidecar.finished] == ["succeeded"]
+        assert "Layer 2 watched 4 deliveries" in of_guard(lines)[-1]

@@ -4,27 +4,54 @@ The sidecar's page, the report of a run and ``aegis-ot inspect`` show what is ga
 starts from the overview of a run (``GET /v1/runs/{run}``) as plain values.
 """
 
-from .plates import PlateCell, PlateMap, plate_maps
-from .seen import seen_well, state_of
-from .situation import Situation, doing, situations
-from .summary import run_account
-from .wells import Axis, Box, Inspection, Level, Picture, Point, SeenFrame, SeenWell
+from typing import TYPE_CHECKING
+
+from ..lazy import door
+
+if TYPE_CHECKING:
+    from .answers import RECOVERY, Answer
+    from .page_view import RunView, run_view
+    from .plates import PlateView, WellView, count_wells, plates_of
+    from .seen import seen_well
+    from .situation import Situation, doing, situations
+    from .states import state_of
+    from .summary import run_account
+    from .wells import Axis, Box, Inspection, Level, Picture, Point, SeenFrame, SeenWell
+
+__getattr__ = door(
+    __name__,
+    {
+        "answers": "Answer RECOVERY",
+        "page_view": "RunView run_view",
+        "plates": "PlateView WellView count_wells plates_of",
+        "seen": "seen_well",
+        "situation": "Situation doing situations",
+        "states": "state_of",
+        "summary": "run_account",
+        "wells": "Axis Box Inspection Level Picture Point SeenFrame SeenWell",
+    },
+)
 
 __all__ = [
+    "RECOVERY",
+    "Answer",
     "Axis",
     "Box",
     "Inspection",
     "Level",
     "Picture",
-    "PlateCell",
-    "PlateMap",
+    "PlateView",
     "Point",
+    "RunView",
     "SeenFrame",
     "SeenWell",
     "Situation",
+    "WellView",
+    "count_wells",
     "doing",
-    "plate_maps",
+    "plates_of",
     "run_account",
+    "run_view",
     "seen_well",
     "situations",
     "state_of",

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from typing import Any
 
 from ..vocabulary import KeyframeKind
 from .levels import axis_of, expected_level, measured_level
+from .overview import DeliveryEntry, VerdictEntry, last_keyframe, verdict_of
 from .scores import band_in, signs_in
+from .states import failure_in_words, state_of
 from .wells import Box, Picture, SeenFrame, SeenWell
 
 Pictures = Callable[[int, "Box | None"], "tuple[Picture | None, Picture | None, str]"]
@@ -23,31 +25,7 @@ def no_pictures(_sequence: int, _box: Box | None) -> tuple[None, None, str]:
     return None, None, ""
 
 
-def state_of(trajectory: Mapping[str, Any]) -> str:
-    """How a delivery stands, in one word: ``fail``, ``recovered`` (failed, and put right by the
-    robot), ``undecided`` (also where no verdict will come any more), ``pass``,
-    ``calibration``, ``waiting`` (for its verdict), ``running`` (keyframes are still to come),
-    ``abandoned``, or ``unobserved`` where the camera saw none of its tips.
-    """
-    if trajectory["abandoned"] is not None:
-        return "abandoned"
-    verdict = trajectory["verdict"]
-    if trajectory.get("awaiting") or (not verdict and trajectory.get("unjudged")):
-        return "undecided"
-    if verdict:
-        if verdict["outcome"] == "fail" and trajectory.get("recovered"):
-            return "recovered"
-        told = verdict.get("channels") or ()
-        unseen = bool(told) and all(channel["outcome"] == "unobserved" for channel in told)
-        if unseen and verdict["outcome"] == "pass" and not trajectory["decisions"]:
-            return "unobserved"
-        calibrates = verdict["outcome"] == "pass" and verdict["route"] == "calibration"
-        return "calibration" if calibrates else str(verdict["outcome"])
-    kinds = {keyframe["kind"] for keyframe in trajectory["keyframes"]}
-    return "waiting" if KeyframeKind.POST_DISPENSE.value in kinds else "running"
-
-
-def seen_well(run: str, entry: Mapping[str, Any], pictures: Pictures = no_pictures) -> SeenWell:
+def seen_well(run: str, entry: DeliveryEntry, pictures: Pictures = no_pictures) -> SeenWell:
     """Gather one delivery.
 
     Args:
@@ -55,9 +33,8 @@ def seen_well(run: str, entry: Mapping[str, Any], pictures: Pictures = no_pictur
         entry: The delivery in the run's overview.
         pictures: Where its frames come from.
     """
-    verdict: Mapping[str, Any] = entry["verdict"] or {}
-    evidence: Mapping[str, Any] = entry["evidence"]
-    last: Mapping[str, Any] = entry["keyframes"][-1] if entry["keyframes"] else {}
+    verdict, last = verdict_of(entry), last_keyframe(entry)
+    evidence = entry["evidence"]
     pipette, reagent = str(last.get("pipette", "")), last.get("reagent") or ""
     wells = last.get("destinations") or last.get("sources") or ()
     route, reason = str(verdict.get("route", "")), str(verdict.get("reason", ""))
@@ -75,7 +52,7 @@ def seen_well(run: str, entry: Mapping[str, Any], pictures: Pictures = no_pictur
         outcome=_outcome(state, verdict),
         route=route,
         gate=str(verdict.get("gate", "")),
-        failure=str(verdict.get("failure") or ""),
+        failure=failure_in_words(entry),
         reason=reason,
         truth="",
         agreement="",
@@ -86,13 +63,13 @@ def seen_well(run: str, entry: Mapping[str, Any], pictures: Pictures = no_pictur
     )
 
 
-def _outcome(state: str, verdict: Mapping[str, Any]) -> str:
+def _outcome(state: str, verdict: VerdictEntry) -> str:
     if state == "calibration" or not verdict:
         return state if state in ("calibration", "undecided") else ""
     return str(verdict["outcome"])
 
 
-def _frames(entry: Mapping[str, Any], pictures: Pictures) -> dict[KeyframeKind, SeenFrame]:
+def _frames(entry: DeliveryEntry, pictures: Pictures) -> dict[KeyframeKind, SeenFrame]:
     evidence = entry["evidence"]
     frames = {}
     for keyframe in entry["keyframes"]:

@@ -4,12 +4,12 @@ report of a run holds them."""
 from __future__ import annotations
 
 import statistics
-from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any
 
-from .plates import PlateMap, plate_maps
-from .seen import state_of
+from .overview import DeliveryEntry, RunOverview, channels_of, last_keyframe, verdict_of, well_name
+from .plates import PlateView, count_wells, plates_of, wells_of
+from .states import state_of
 
 FORMAT = "aegis-ot run report"
 VERSION = 1
@@ -17,10 +17,10 @@ VERSION = 1
 PAUSES = ("operator", "camera", "busy", "link")
 """Resolutions of holds that were pauses from the start."""
 
-ALWAYS = ("run", "protocol", "robot", "robot_name", "api_level", "package", "registered")
+ALWAYS = ("run", "title", "protocol", "robot", "robot_name", "api_level", "package", "registered")
 
 
-def run_account(overview: Mapping[str, Any]) -> dict[str, Any]:
+def run_account(overview: RunOverview) -> dict[str, Any]:
     """Everything about a run but its pictures.
 
     Args:
@@ -28,15 +28,17 @@ def run_account(overview: Mapping[str, Any]) -> dict[str, Any]:
 
     Returns:
         ``run``, ``protocol``, ``robot`` and the like; ``frames`` (``"simulated"`` or ``"real"``);
-        ``finished``; ``counts`` by state; ``unobserved`` (wells whose tip the camera did not see);
+        ``finished``; ``counts`` of wells by state, ``wells`` in all, and of ``deliveries``: a row
+        of eight tips is one delivery into eight wells; ``unobserved`` (wells whose tip the camera
+        did not see);
         ``plates``; ``wells``; ``flagged`` (numbers of the
         deliveries that failed, are undecided, or that a person decided); ``calibration`` per
         liquid and pipette; ``holds``; ``decisions``; ``latency`` (s); ``costs``; ``incidents``;
         ``recoveries``; ``audit`` (the look back after the run, ``None`` before there was one);
         ``layer1``; ``guard`` and ``sidecar`` (settings and versions).
     """
-    trajectories: Sequence[Mapping[str, Any]] = overview["trajectories"]
-    states = Counter(state_of(trajectory) for trajectory in trajectories)
+    trajectories = overview["trajectories"]
+    plates = plates_of(overview)
     unseen = _unobserved(trajectories)
     return {
         "format": FORMAT,
@@ -44,9 +46,9 @@ def run_account(overview: Mapping[str, Any]) -> dict[str, Any]:
         **{name: overview.get(name, "") for name in ALWAYS},
         "frames": "simulated" if overview.get("simulated") else "real",
         "finished": overview.get("finished"),
-        "counts": dict(states) | {"wells": len(trajectories)},
+        "counts": count_wells(plates, trajectories),
         "unobserved": unseen,
-        "plates": [_plate(plate) for plate in plate_maps(trajectories)],
+        "plates": [_plate(plate) for plate in plates],
         "wells": [_well(trajectory) for trajectory in trajectories],
         "flagged": [t["trajectory"] for t in trajectories if is_flagged(t)],
         "calibration": _calibration(trajectories),
@@ -65,23 +67,22 @@ def run_account(overview: Mapping[str, Any]) -> dict[str, Any]:
     }
 
 
-def is_flagged(trajectory: Mapping[str, Any]) -> bool:
+def is_flagged(trajectory: DeliveryEntry) -> bool:
     """Whether a person should look at it: it failed, is undecided, or somebody changed it."""
     state = state_of(trajectory)
     return state in ("fail", "undecided", "recovered") or bool(trajectory["decisions"])
 
 
-def _plate(plate: PlateMap) -> dict[str, Any]:
+def _plate(plate: PlateView) -> dict[str, Any]:
     return {
         "labware": plate.key,
         "title": plate.title,
-        "wells": {well: cell.state for well, cell in plate.cells.items()},
+        "wells": {name: well.state for name, well in plate.wells.items()},
     }
 
 
-def _well(trajectory: Mapping[str, Any]) -> dict[str, Any]:
-    last = trajectory["keyframes"][-1] if trajectory["keyframes"] else {}
-    verdict = trajectory["verdict"] or {}
+def _well(trajectory: DeliveryEntry) -> dict[str, Any]:
+    last, verdict = last_keyframe(trajectory), verdict_of(trajectory)
     said = ("outcome", "failure", "route", "gate", "score", "measured_ul", "expected_ul")
     return {
         "trajectory": trajectory["trajectory"],
@@ -100,23 +101,22 @@ def _well(trajectory: Mapping[str, Any]) -> dict[str, Any]:
         "judged_first": (trajectory["judged"] or {}).get("outcome"),
         "abandoned": trajectory["abandoned"],
         "channels": [
-            channel | {"well": (channel["well"] or {}).get("name")}
-            for channel in verdict.get("channels") or ()
+            {**channel, "well": well_name(channel)} for channel in channels_of(trajectory)
         ],
     }
 
 
-def _unobserved(trajectories: Iterable[Mapping[str, Any]]) -> list[str]:
+def _unobserved(trajectories: Iterable[DeliveryEntry]) -> list[str]:
     """Wells, each delivery counted, whose tip the camera did not see."""
     return [
-        str((channel["well"] or {}).get("name") or f"nozzle {channel['nozzle']}")
+        str(well_name(channel) or f"nozzle {channel['nozzle']}")
         for trajectory in trajectories
-        for channel in (trajectory["verdict"] or {}).get("channels") or ()
+        for channel in channels_of(trajectory)
         if channel["outcome"] == "unobserved" and trajectory["abandoned"] is None
     ]
 
 
-def _calibration(trajectories: Iterable[Mapping[str, Any]]) -> list[dict[str, Any]]:
+def _calibration(trajectories: Iterable[DeliveryEntry]) -> list[dict[str, Any]]:
     """Per liquid and pipette: which wells calibrated, and the band that the last well met."""
     streams: dict[tuple[str, ...], dict[str, Any]] = {}
     for trajectory in trajectories:
@@ -125,13 +125,13 @@ def _calibration(trajectories: Iterable[Mapping[str, Any]]) -> list[dict[str, An
         if not stream:
             continue
         known = streams.setdefault(stream, {"stream": list(stream), "wells": [], "band": None})
-        if state_of(trajectory) == "calibration":
-            known["wells"].append(trajectory["well"])
+        calibrating = [well.well for _, well in wells_of(trajectory) if well.state == "calibration"]
+        known["wells"] += [name for name in calibrating if name not in known["wells"]]
         known["band"] = evidence.get("band") or known["band"]
     return list(streams.values())
 
 
-def _decisions(trajectories: Iterable[Mapping[str, Any]]) -> list[dict[str, Any]]:
+def _decisions(trajectories: Iterable[DeliveryEntry]) -> list[dict[str, Any]]:
     return [
         decision
         | {"trajectory": trajectory["trajectory"], "well": trajectory["well"], "action": None}
@@ -140,7 +140,7 @@ def _decisions(trajectories: Iterable[Mapping[str, Any]]) -> list[dict[str, Any]
     ]
 
 
-def _actions(overview: Mapping[str, Any]) -> list[dict[str, Any]]:
+def _actions(overview: RunOverview) -> list[dict[str, Any]]:
     """What people told the robot from the page: resume, stop."""
     wells = {t["trajectory"]: t["well"] for t in overview["trajectories"]}
     return [
@@ -149,7 +149,7 @@ def _actions(overview: Mapping[str, Any]) -> list[dict[str, Any]]:
     ]
 
 
-def _recoveries(overview: Mapping[str, Any]) -> list[dict[str, Any]]:
+def _recoveries(overview: RunOverview) -> list[dict[str, Any]]:
     """What the robot did by itself about failed deliveries, with the well of each."""
     wells = {t["trajectory"]: t["well"] for t in overview["trajectories"]}
     return [
@@ -157,7 +157,7 @@ def _recoveries(overview: Mapping[str, Any]) -> list[dict[str, Any]]:
     ]
 
 
-def _latency(trajectories: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
+def _latency(trajectories: Sequence[DeliveryEntry]) -> dict[str, Any]:
     """Where the time went, s: trigger to exposure, last frame to verdict, holds."""
     exposures = [k["exposed_after_s"] for t in trajectories for k in t["keyframes"]]
     verdicts = [

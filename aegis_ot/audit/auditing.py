@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 from ..progress import Progress
 from ..sidecar.store import Store
-from ..vision.gates import Case, ConfirmingGate
+from ..vision.gates import ConfirmingGate, GateInput
 from ..vision.scorers.ensemble import EnsembleScorer
 from ..vision.types import Detector, TrajectorySample
 from ..vocabulary import Outcome, Route, counted
@@ -16,7 +16,7 @@ from .measures import Measures, measure
 from .patterns import drifts, no_liquid
 from .reasons import SPEAKS, drift_words, liquid_words, neighbour_words, no_liquid_words, reasons
 from .result import Audit, Suspect
-from .surprise import Standing, standings
+from .surprise import WellStanding, standings
 from .wells import RunWell, by_liquid, run_wells
 
 STANDS_OUT = 8.0
@@ -146,7 +146,7 @@ def _judge(
 
 
 def _single(
-    well: RunWell, measured: Measures, standing: Standing, others: int, run: Sequence[RunWell]
+    well: RunWell, measured: Measures, standing: WellStanding, others: int, run: Sequence[RunWell]
 ) -> Suspect:
     near = list(neighbour_words(well, run))
     score = standing.total + sum(counts for _, counts in near)
@@ -214,7 +214,7 @@ def _asked(
     costs: list[dict[str, object]] = []
     for place, one in enumerate(ranked):
         sample = replace(one.well.recorded, detections=one.well.sample.detections)
-        said = model.examine(Case(sample, Route.SILENT_PASS, normal=one.normal))
+        said = model.examine(GateInput(sample, Route.SILENT_PASS, normal=one.normal))
         progress.step()
         if not said.costs:
             break  # the budget is spent, or the model does not answer

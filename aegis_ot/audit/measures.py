@@ -10,11 +10,10 @@ from typing import TypeVar
 import numpy as np
 
 from ..vision.column import Wetness, ceiling
-from ..vision.column_look import Look
 from ..vision.column_reader import MeasuredColumns, Well
 from ..vision.delivery import Shown
 from ..vision.first_wells import FirstWells
-from ..vision.gates import Case, VolumetricGate
+from ..vision.gates import GateInput, VolumetricGate
 from ..vision.run_scorer import RunScorer
 from ..vision.scorers.ensemble import EnsembleScorer
 from ..vision.tips import tip_for
@@ -126,7 +125,7 @@ def _spread(items: Sequence[T], most: int) -> list[T]:
 
 def _read(well: RunWell, reader: MeasuredColumns, others: Sequence[Well]) -> Measures:
     """What its free frames show of the column, by what the others teach."""
-    wets = reader.wetness_beside(well.looks, others)
+    wets = reader.wetness_beside(well.looks, well.sample.expected_ul, others)
     tip = tip_for(well.keyframe.pipette, well.keyframe.capacity_ul)
     top = reader.place(tip, well.sample.expected_ul[TRANSIT])
     signs: dict[str, float] = {}
@@ -135,7 +134,7 @@ def _read(well: RunWell, reader: MeasuredColumns, others: Sequence[Well]) -> Mea
     if before is not None:
         end = _end(well, TRANSIT)
         _put(signs, "short", before, top + 0.02, end, full=True)
-        signs["gap"] = math.log1p(before.longest_gap(top + 0.05, end)[0])
+        signs["gap"] = math.log1p(before.longest_gap(top + 0.05, end))
     rest = reader.place(tip, well.sample.expected_ul[AFTER])
     if after is not None:
         for share in HEIGHTS:
@@ -153,7 +152,7 @@ def _contradiction(
     """What the volumetric gate says against it, all other wells known."""
     readings = reader.read_beside(well.looks, well.sample.expected_ul, teachers)
     found = well.sample.detections.items()
-    case = Case(
+    case = GateInput(
         well.sample, Route.SILENT_PASS, None, readings,
         tuple(kind for kind, tip in found if tip is None), clearly_absent=False,
         delivery=proven.held_against(well.liquid, well.delivery),
@@ -171,8 +170,7 @@ def _put(
 
 
 def _end(well: RunWell, kind: KeyframeKind) -> float:
-    look = well.looks[kind]
-    return look.lowest if isinstance(look, Look) else 1.0
+    return well.looks[kind].lowest
 
 
 def _scores(
@@ -202,8 +200,9 @@ def _scored(well: RunWell, scorer: EnsembleScorer) -> tuple[dict[str, float], bo
     report = scorer.report(well.sample)
     seen = report.column.signs
     signs = {"score": report.score}
-    if seen.retained is not None:
-        signs["retained"] = math.sqrt(max(seen.retained, 0.0))
+    stayed = seen.retained if seen.undelivered is None else seen.undelivered
+    if stayed is not None:
+        signs["retained"] = math.sqrt(max(stayed, 0.0))
     off = seen.misfill.get(TRANSIT)
     if off is not None:
         near = min(max(off, -ANOTHER_EDGE), ANOTHER_EDGE)

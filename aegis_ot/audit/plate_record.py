@@ -5,16 +5,14 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any
 
-from ..account import PlateMap, plate_maps
+from ..account import PlateView, plates_of
+from ..account.overview import DeliveryEntry, WellEntry
 from ..errors import ConfigurationError
 from ..vision.plate import FORMATS, PlateFormat
 
 Key = tuple[str, str]
 """Labware and well."""
-
-Trajectories = Sequence[Mapping[str, Any]]
 
 
 @dataclass
@@ -51,7 +49,9 @@ class RecordedPlate:
     wells: Mapping[str, RecordedWell]
 
 
-def recorded_plate(trajectories: Trajectories, slot: str, wells: int | None) -> RecordedPlate:
+def recorded_plate(
+    trajectories: Sequence[DeliveryEntry], slot: str, wells: int | None
+) -> RecordedPlate:
     """The plate that pictures show.
 
     Args:
@@ -82,8 +82,8 @@ def recorded_plate(trajectories: Trajectories, slot: str, wells: int | None) -> 
     return RecordedPlate(one.title, plate, contents)
 
 
-def _asked(trajectories: Trajectories, slot: str) -> PlateMap:
-    maps = plate_maps(trajectories)
+def _asked(trajectories: Sequence[DeliveryEntry], slot: str) -> PlateView:
+    maps = plates_of({"trajectories": list(trajectories)})
     if not maps:
         raise ConfigurationError("--plate: by its record the run delivered to no plate.")
     if slot:
@@ -101,7 +101,7 @@ def _asked(trajectories: Trajectories, slot: str) -> PlateMap:
     )
 
 
-def _called(trajectories: Trajectories, key: str) -> set[str]:
+def _called(trajectories: Sequence[DeliveryEntry], key: str) -> set[str]:
     """Its key, its labels and all slots in which it stood, in small letters."""
     named = {key.lower()}
     for entry in trajectories:
@@ -118,7 +118,7 @@ def _named(title: str) -> int:
     return int(named[1]) if named else 0
 
 
-def _contents(trajectories: Trajectories, plate: PlateMap) -> dict[str, RecordedWell]:
+def _contents(trajectories: Sequence[DeliveryEntry], plate: PlateView) -> dict[str, RecordedWell]:
     """Of the wells of one plate, after all deliveries. Recoveries only put right what failed."""
     held: dict[Key, RecordedWell] = {}
     for entry in trajectories:
@@ -142,13 +142,13 @@ def _contents(trajectories: Trajectories, plate: PlateMap) -> dict[str, Recorded
         if labware == plate.key and (one.received or one.unknown)
     }
     for name, held_well in touched.items():
-        held_well.failed = name in plate.cells and plate.cells[name].state == "fail"
+        held_well.failed = name in plate.wells and plate.wells[name].state == "fail"
     return touched
 
 
 def _move(
     held: dict[Key, RecordedWell],
-    source: Mapping[str, Any],
+    source: WellEntry,
     target: RecordedWell,
     volume: float,
     reagent: str | None,

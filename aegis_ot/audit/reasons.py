@@ -8,14 +8,14 @@ from ..vision.tips import tip_for
 from ..vocabulary import KeyframeKind, counted
 from .measures import Measures
 from .patterns import Drift
-from .surprise import Standing
+from .surprise import WellStanding
 from .wells import RunWell
 
 SPEAKS = 2.0
 """Surprise of a sign, nats, from which it is told."""
 
 
-def reasons(well: RunWell, measured: Measures, standing: Standing, others: int) -> list[str]:
+def reasons(well: RunWell, measured: Measures, standing: WellStanding, others: int) -> list[str]:
     """What speaks against a well, the strongest first.
 
     Args:
@@ -115,8 +115,8 @@ def _sentence(sign: str, well: RunWell, measured: Measures, usual: float, beside
     drawn = well.sample.expected_ul[KeyframeKind.TRANSIT]
     lacking = drawn * max(min(value, 1.0) - max(usual, 0.0), 0.0)
     said: Mapping[str, str] = {
-        "retained": "The two frames after the dispense together speak more for a column that "
-        f"stayed ({value**2:.0f} nats) than those of {beside} ({usual**2:.0f}).",
+        "retained": "The frames speak more for a column that stayed after the dispense "
+        f"({value**2:.0f} nats) than those of {beside} ({usual**2:.0f}).",
         "short": f"In transit the column looks {_share(1 - value)} filled, in {beside} "
         f"{_share(1 - usual)}: about {_ul(lacking)} may be missing.",
         "gap": f"The column in transit has a stronger break than in {beside}: air may have been "
@@ -125,7 +125,7 @@ def _sentence(sign: str, well: RunWell, measured: Measures, usual: float, beside
         "have been drawn.",
         "high": f"In transit the column ends {mm:.1f} mm higher than in {beside}: too much may "
         "have been drawn.",
-        "absent": f"In transit the colour is not seen that {beside} show.",
+        "absent": f"In transit no column of the colour that {beside} show ends near its place.",
         "faint": "From transit to after the dispense the tip changes only "
         f"{_share((1 - value) / max(1 - usual, 1e-6))} as much as in {beside}.",
         "score": f"The tip looks unlike those of {beside}: image score {value:.1f} nats, usually "

@@ -44,7 +44,7 @@ twenty wells is itself uncertain, and normal wells have tails."""
 
 
 @dataclass(frozen=True)
-class Standing:
+class WellStanding:
     """Where one well stands among the others.
 
     Attributes:
@@ -71,7 +71,7 @@ class Standing:
         return sum(value for _, value in self.strongest().values())
 
 
-def standings(measured: Sequence[Measures], trusted: Sequence[bool]) -> list[Standing]:
+def standings(measured: Sequence[Measures], trusted: Sequence[bool]) -> list[WellStanding]:
     """Of each well of one liquid among the trusted ones."""
     usual: dict[str, float] = {}
     spread: dict[str, float] = {}
@@ -90,7 +90,9 @@ def standings(measured: Sequence[Measures], trusted: Sequence[bool]) -> list[Sta
                 1.48 * float(np.median(np.abs(np.array(known) - usual[sign]))), least
             )
     return [
-        Standing({s: (v - usual[s]) / spread[s] for s, v in one.signs.items() if s in usual}, usual)
+        WellStanding(
+            {s: (v - usual[s]) / spread[s] for s, v in one.signs.items() if s in usual}, usual
+        )
         for one in measured
     ]
 

@@ -2,26 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any
 
+from ..account.overview import DeliveryEntry
 from ..errors import StoreError
 from ..progress import Progress
 from ..sidecar.store import Store
+from ..vision.column_look import Looks
 from ..vision.column_reader import MeasuredColumns
-from ..vision.consistency import TipConsistency, once_each, second_look
+from ..vision.consistency import guesses_in, second_look
 from ..vision.delivery import Delivery, delivery_of
 from ..vision.first_wells import Liquid, liquid_of
-from ..vision.measuring import TipView
 from ..vision.scorers.looks import looks as scorer_looks
 from ..vision.scorers.patches import describe
 from ..vision.tips import tip_for
-from ..vision.types import Detector, Image, TipDetection, TrajectorySample
-from ..vocabulary import Keyframe, KeyframeKind
+from ..vision.types import Detector, Frames, TrajectorySample
+from ..vocabulary import Keyframe
 from ..worldmodel.recorded import recorded_runs
-
-Detections = dict[KeyframeKind, TipDetection | None]
 
 
 @dataclass(frozen=True)
@@ -33,7 +31,7 @@ class RunWell:
         keyframe: Its last one: who pipettes what, from where to where.
         entry: The delivery in the run's overview, with its verdict as it stands.
         recorded: Trajectory whose frames are read from the store when asked for.
-        sample: The same with its tips settled. Its frames are gone: what the scorers read in
+        sample: The same with its tips found. Its frames are gone: what the scorers read in
             them is remembered.
         looks: What the column reader took from each frame.
         delivery: What its own frames show of its delivery.
@@ -41,10 +39,10 @@ class RunWell:
 
     trajectory: int
     keyframe: Keyframe
-    entry: Mapping[str, Any]
+    entry: DeliveryEntry
     recorded: TrajectorySample
     sample: TrajectorySample
-    looks: Mapping[KeyframeKind, object] = field(repr=False)
+    looks: Looks = field(repr=False)
     delivery: Delivery
 
     @property
@@ -75,63 +73,34 @@ def run_wells(
     progress = progress or Progress()
     (recorded,) = recorded_runs(store, detector, [run])
     keyframes = {one.keyframe.trajectory: one.keyframe for one in store.keyframes(run)}
-    progress.begin("Finding tips", len(recorded.samples))
-    tips = _Tips(detector)
-    found: list[tuple[Mapping[str, Any], TrajectorySample]] = []
+    progress.begin("Reading tips", len(recorded.samples))
+    wells = []
     for entry, sample in zip(recorded.entries, recorded.samples, strict=True):
         progress.step()
         try:
-            tips.meet(keyframes[entry["trajectory"]], sample)
+            frames = Frames(sample.frames)
         except StoreError:
             continue
-        found.append((entry, sample))
-    progress.begin("Reading tips", len(found))
-    wells = []
-    for entry, sample in found:
-        wells.append(_well(entry, sample, keyframes[entry["trajectory"]], tips))
-        progress.step()
+        wells.append(_well(entry, sample, frames, keyframes[entry["trajectory"]], detector))
     return wells, recorded.left_out + len(recorded.samples) - len(wells)
 
 
-class _Tips:
-    """The run's tips: met well by well, then settled by what all of them showed."""
-
-    def __init__(self, detector: Detector) -> None:
-        self._detector = detector
-        self._found: dict[str, Detections] = {}
-        self._tips: dict[tuple[str, float], TipConsistency] = {}
-
-    def meet(self, keyframe: Keyframe, sample: TrajectorySample) -> None:
-        """Find a well's tips, and learn what this pipette's look like."""
-        frames = dict(sample.frames)
-        self._found[sample.id] = {kind: self._detector.detect(frames[kind]) for kind in frames}
-        self.settled(keyframe, sample, frames)
-
-    def settled(
-        self, keyframe: Keyframe, sample: TrajectorySample, frames: Mapping[KeyframeKind, Image]
-    ) -> Detections:
-        """A well's detections, put right by all that is known of the run by now."""
-        key = liquid_of(keyframe)[:2]
-        tip = self._tips.setdefault(key, TipConsistency())
-        detections = dict(self._found[sample.id])
-        guess = getattr(self._detector, "best_guess", None)
-        if guess is not None:
-            guess = once_each(guess)
-            detections.update(second_look(guess, detections, frames))
-            detections.update(tip.recognise(guess, detections, frames))
-        return tip.settle(detections, frames)
-
-
 def _well(
-    entry: Mapping[str, Any], recorded: TrajectorySample, keyframe: Keyframe, tips: _Tips
+    entry: DeliveryEntry,
+    recorded: TrajectorySample,
+    frames: Frames,
+    keyframe: Keyframe,
+    detector: Detector,
 ) -> RunWell:
-    frames = dict(recorded.frames)
-    detections = tips.settled(keyframe, recorded, frames)
+    detections = {kind: detector.detect(frames[kind]) for kind in frames}
+    guess = guesses_in(detector, frames)
+    if guess is not None:
+        detections.update(second_look(guess, detections))
     sample = replace(recorded, frames=frames, detections=detections)
     tip = tip_for(keyframe.pipette, keyframe.capacity_ul)
     reader = MeasuredColumns()
     looks = {
-        kind: reader.look(TipView(kind, frames[kind], found, tip, sample.expected_ul[kind]))
+        kind: reader.look(frames, kind, found, tip)
         for kind, found in detections.items()
         if found is not None
     }

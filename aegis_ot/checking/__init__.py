@@ -19,21 +19,12 @@ if TYPE_CHECKING:
 __getattr__ = door(
     __name__,
     {
-        "Asking": "modelled",
-        "Broken": "result",
-        "CheckRun": "result",
-        "CheckSettings": "run",
-        "CheckedProtocol": "result",
-        "Configuration": "configuration",
-        "Exploration": "result",
-        "Problem": "result",
-        "Project": "projects",
-        "Rehearser": "rehearser",
-        "TaskFailed": "rehearser",
-        "check_files": "projects",
-        "check_projects": "projects",
-        "configurations_of": "configuration",
-        "find_configuration": "configuration",
+        "configuration": "Configuration configurations_of find_configuration",
+        "modelled": "Asking",
+        "projects": "Project check_files check_projects",
+        "rehearser": "Rehearser TaskFailed",
+        "result": "Broken CheckRun CheckedProtocol Exploration Problem",
+        "run": "CheckSettings",
     },
 )
 

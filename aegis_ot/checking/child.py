@@ -9,24 +9,23 @@ of its own, so whatever its protocol writes there spoils no other's answer.
 from __future__ import annotations
 
 import contextlib
+import dataclasses
 import faulthandler
 import io
 import os
 import pickle
-import struct
 import sys
 from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
-from typing import IO, Any
 
 from ..preflight.rehearsal import second_clock
+from .lasting import outlive
+from .link import CAN_FORK, Link, LinkAnswer
 from .problems import problem_of
+from .reads import Reads, signatures
 from .result import Problem
 from .tasks import Task, prepare
-
-CAN_FORK = sys.platform == "linux"
-"""Elsewhere a fork of a process with threads is not safe, or there is none."""
+from .verdicts_kept import Kept, KeptVerdicts, key_of
 
 ANSWERED = 85
 """Exit status of a fork that has sent its answer; any other has died without."""
@@ -40,103 +39,65 @@ def grace_s(timeout_s: float) -> float:
 _MEMORY_BYTES = 6 << 30
 
 
-@dataclass(frozen=True)
-class Answer:
-    """What came of a task: a value, a problem, or the death of the process that did it."""
-
-    value: Any = None
-    problem: Problem | None = None
-    died: str = ""
-
-
-class Link:
-    """Pickled messages over two byte streams, each after its length; ``trusts`` the other side."""
-
-    def __init__(self, incoming: IO[bytes], outgoing: IO[bytes], trusts: bool = False) -> None:
-        self._unpickler = pickle.Unpickler if trusts else _Unpickler
-        self._incoming = incoming
-        self._outgoing = outgoing
-
-    def send(self, message: object) -> None:
-        """Send one message."""
-        self.forward(pickle.dumps(message))
-
-    def forward(self, data: bytes) -> None:
-        """Send one message that is pickled already."""
-        self._outgoing.write(struct.pack("!Q", len(data)) + data)
-        self._outgoing.flush()
-
-    def receive(self) -> Any:
-        """Wait for one message.
-
-        Raises:
-            EOFError: The other side is gone.
-            pickle.UnpicklingError: It is none of ours: a protocol wrote it.
-        """
-        return self._unpickler(io.BytesIO(self.receive_bytes())).load()
-
-    def receive_bytes(self) -> bytes:
-        """Wait for one message, and leave it pickled.
-
-        Raises:
-            EOFError: As for :meth:`receive`.
-        """
-        return self._exactly(struct.unpack("!Q", self._exactly(8))[0])
-
-    def _exactly(self, size: int) -> bytes:
-        data = self._incoming.read(size)
-        if data is None or len(data) < size:
-            raise EOFError
-        return data
-
-    def close(self) -> None:
-        """Close both streams."""
-        for stream in (self._outgoing, self._incoming):
-            with contextlib.suppress(OSError):
-                stream.close()
-
-
-class _Unpickler(pickle.Unpickler):
-    """Makes objects of this package and plain values only: a protocol may have written them."""
-
-    def load(self) -> Any:
-        try:
-            return super().load()
-        except Exception as error:
-            raise pickle.UnpicklingError(str(error)) from error
-
-    def find_class(self, module: str, name: str) -> Any:
-        if module.partition(".")[0] == __name__.partition(".")[0] or (module, name) in _PLAIN:
-            found = super().find_class(module, name)
-            if isinstance(found, type) and found.__module__ == module:
-                return found
-        raise pickle.UnpicklingError(f"{module}.{name} is not part of an answer.")
-
-
-_PLAIN = {("builtins", name) for name in ("set", "frozenset", "complex", "bytearray", "range")} | {
-    ("collections", name) for name in ("Counter", "OrderedDict", "defaultdict", "deque")
-}
-
-
 def main() -> None:
-    """Serve until the other side closes. Arguments: a file for stacks, paths of rules."""
-    stacks = Path(sys.argv[1])
+    """Serve until the other side closes.
+
+    Arguments: a file for stacks; a socket to listen at and for how long, s, or two empty ones;
+    paths of rules.
+    """
+    reads = Reads()
+    stacks, place, keep_s, *rules = sys.argv[1:]
     link = _private_streams()
     try:
-        prepare(tuple(sys.argv[2:]))
+        prepare(tuple(rules))
     except ImportError as error:
-        link.send(Answer(problem=Problem(str(error))))
+        link.send(LinkAnswer(problem=Problem(str(error))))
         return
-    link.send(Answer("ready"))
+    reads.settle()
+    if place:
+        outlive(Path(place), float(keep_s), link, reads, serve)
+    link.send(LinkAnswer("ready"))
+    serve(link, Path(stacks), reads, KeptVerdicts())
+
+
+def serve(
+    link: Link, stacks: Path, reads: Reads, kept: KeptVerdicts, upward: Link | None = None
+) -> None:
+    """Perform one caller's tasks until it closes its side.
+
+    Args:
+        link: To the caller.
+        stacks: File for the stacks of a task that dies.
+        reads: What this process rests on.
+        kept: Verdicts that still hold are given anew.
+        upward: Told of each verdict that may hold for other callers as well.
+    """
     while True:
         try:
             task = pickle.loads(link.receive_bytes())  # from this package: no protocol writes it
         except EOFError:
             return
-        if CAN_FORK:
-            _fork(task, link, stacks)
+        if not reads.stands():
+            link.send(LinkAnswer(stale=True))
+        elif CAN_FORK:
+            key = key_of(task)
+            known = kept.find(key)
+            answer = known or _fork(task, link, stacks, reads, upward)
+            link.forward(answer)
+            if key and not known and (new := _to_keep(answer)):
+                kept.add(key, new)
+                if upward is not None:
+                    upward.send((key, new))
         else:
-            _serve(task, link, stacks)
+            link.forward(_served(task, stacks, reads))
+
+
+def _to_keep(answer: bytes) -> Kept | None:
+    """The answer without what it rests on, if it rests on files alone."""
+    told = Link(io.BytesIO(), io.BytesIO()).read(answer)
+    if not isinstance(told, LinkAnswer) or told.rests_on is None or told.problem is not None:
+        return None
+    return Kept(pickle.dumps(dataclasses.replace(told, rests_on=None)), told.rests_on)
 
 
 def _private_streams() -> Link:
@@ -150,15 +111,18 @@ def _private_streams() -> Link:
     return Link(incoming, outgoing, trusts=True)  # tasks hold paths and what others need
 
 
-def _fork(task: Task, link: Link, stacks: Path) -> None:
+def _fork(task: Task, link: Link, stacks: Path, reads: Reads, upward: Link | None) -> bytes:
+    """Perform a task in a fork; its answer, as it was sent."""
     reading, writing = os.pipe()
     pid = os.fork()
     if pid == 0:
         try:
             os.close(reading)
             link.close()
+            if upward is not None:
+                upward.close()
             _limit_memory()
-            _serve(task, Link(io.BytesIO(), os.fdopen(writing, "wb")), stacks)
+            Link(io.BytesIO(), os.fdopen(writing, "wb")).forward(_served(task, stacks, reads))
             os._exit(ANSWERED)
         finally:
             os._exit(1)
@@ -171,10 +135,9 @@ def _fork(task: Task, link: Link, stacks: Path) -> None:
     _, status = os.waitpid(pid, 0)
     code = os.waitstatus_to_exitcode(status)
     if code == ANSWERED:
-        link.forward(answer)
-    else:
-        how = f"signal {-code}" if code < 0 else f"exit status {code}"
-        link.send(Answer(died=how))
+        return answer
+    how = f"signal {-code}" if code < 0 else f"exit status {code}"
+    return pickle.dumps(LinkAnswer(died=how))
 
 
 def _limit_memory() -> None:
@@ -186,7 +149,10 @@ def _limit_memory() -> None:
     resource.setrlimit(resource.RLIMIT_AS, (limit, hard))
 
 
-def _serve(task: Task, link: Link, stacks: Path) -> None:
+def _served(task: Task, stacks: Path, reads: Reads) -> bytes:
+    """The answer to a task, ready to be sent."""
+    reads.paths.clear()
+    reads.outward.clear()
     with stacks.open("wb") as file:
         # After a crash this tells the line.
         faulthandler.enable(file=file)
@@ -202,11 +168,13 @@ def _serve(task: Task, link: Link, stacks: Path) -> None:
 
         try:
             with second_clock(last_resort):
-                answer = Answer(task.perform())
+                value = task.perform()
+                rests_on = None if reads.outward else signatures(reads.paths - {str(stacks)})
+                answer = LinkAnswer(value, rests_on=rests_on)
         except BaseException as error:
-            answer = Answer(problem=problem_of(error, task.file_name))
+            answer = LinkAnswer(problem=problem_of(error, task.file_name))
         faulthandler.disable()
     try:
-        link.send(answer)
+        return pickle.dumps(answer)
     except (pickle.PicklingError, AttributeError, TypeError) as error:
-        link.send(Answer(problem=problem_of(error, task.file_name)))
+        return pickle.dumps(LinkAnswer(problem=problem_of(error, task.file_name)))

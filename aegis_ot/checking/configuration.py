@@ -161,7 +161,7 @@ def read_configuration(table: Any, folder: Path, name: str) -> Configuration:
     Raises:
         ConfigurationError: A key is unknown or of the wrong kind, with its name.
     """
-    reader = _Reader(name)
+    reader = _ConfigurationReader(name)
     if not isinstance(table, Mapping):
         raise ConfigurationError(f"{name}: [{TABLE}] must be a table.")
     known = {
@@ -212,7 +212,7 @@ def read_configuration(table: Any, folder: Path, name: str) -> Configuration:
     )
 
 
-class _Reader:
+class _ConfigurationReader:
     def __init__(self, name: str) -> None:
         self._name = name
 

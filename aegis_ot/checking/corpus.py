@@ -9,13 +9,13 @@ import json
 import threading
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
-from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
-from ..preflight import Database
-from ..preflight.database import shipped_rules
+from ..preflight import RuleSet
+from ..preflight.rule_set import shipped_rules
 from ..vocabulary import one_line
-from .corpus_table import CRASHED, SKIPPED, Results, Row, Table, Told, read_results
+from .corpus_table import CRASHED, SKIPPED, CorpusRow, CorpusTable, Results, Told, read_results
+from .engines import EngineMissing, engine_for, need_of
 from .projects import Project
 from .result import CheckedProtocol, Problem
 from .run import check_file
@@ -32,7 +32,7 @@ def check_corpus(
     table: Path,
     projects: Sequence[Project],
     jobs: int = 1,
-    done: Callable[[Row, bool], None] = lambda row, kept: None,
+    done: Callable[[CorpusRow, bool], None] = lambda row, kept: None,
 ) -> Results:
     """Judge protocols, each in a process of its own, and add a row of each to a table.
 
@@ -66,7 +66,7 @@ def check_corpus(
         if file not in keys and (Path(file).exists() or not _is_below(file, folders))
     ]
     lock = threading.Lock()
-    with Table(table, [*others, *results.values()]) as kept:
+    with CorpusTable(table, [*others, *results.values()]) as kept:
         for row, _ in results.values():
             done(row, True)
 
@@ -90,29 +90,29 @@ def _is_below(file: str, folders: Sequence[Path]) -> bool:
 
 def _judged(
     shelved: Shelved, key: str, project: Project, lazy: LazyRehearser
-) -> tuple[Row, tuple[Told, ...]]:
+) -> tuple[CorpusRow, tuple[Told, ...]]:
     file = shelved.path.as_posix()
     if shelved.skipped is not None:
         return _unjudged(file, SKIPPED, shelved.skipped, key), ()
     settings = dataclasses.replace(
         project.settings, labware={**shelved.labware, **project.settings.labware}
     )
-    checked = check_file(shelved.path, settings, project.database, lazy)
+    checked = check_file(shelved.path, settings, project.rule_set, lazy)
     if checked.problem is not None:
         return _unjudged(
             file, CRASHED if checked.problem.bug else "error", checked.problem, key
         ), ()
-    return _row(checked, project.database, key), tuple(_told(checked))
+    return _row(checked, project.rule_set, key), tuple(_told(checked))
 
 
-def _row(checked: CheckedProtocol, database: Database, key: str) -> Row:
+def _row(checked: CheckedProtocol, rule_set: RuleSet, key: str) -> CorpusRow:
     broken = Counter((finding.rule, finding.severity.value) for finding in checked.findings)
-    states = checked.states(database)
+    states = checked.states(rule_set)
     listed = {
         word: " ".join(rule for rule, state in states.items() if state == word)
         for word in ("decided", "undecided", "not_applicable")
     }
-    return Row(
+    return CorpusRow(
         checked.file,
         checked.verdict.value,
         checked.family,
@@ -126,10 +126,10 @@ def _row(checked: CheckedProtocol, database: Database, key: str) -> Row:
     )
 
 
-def _unjudged(file: str, verdict: str, problem: Problem, key: str) -> Row:
+def _unjudged(file: str, verdict: str, problem: Problem, key: str) -> CorpusRow:
     line = "" if problem.line is None else str(problem.line)
     reason = one_line(problem.message, _LONGEST_REASON)
-    return Row(file, verdict, reason=reason, line=line, key=key)
+    return CorpusRow(file, verdict, reason=reason, line=line, key=key)
 
 
 def _told(checked: CheckedProtocol) -> Iterator[Told]:
@@ -153,6 +153,8 @@ def _key(shelved: Shelved, digest: hashlib._Hash) -> str:
     digest.update(shelved.text.encode("utf-8", "backslashreplace"))
     digest.update(json.dumps(shelved.labware, sort_keys=True).encode())
     digest.update(str(shelved.skipped).encode("utf-8", "backslashreplace"))
+    with contextlib.suppress(EngineMissing):
+        digest.update(engine_for(need_of(shelved.text)).version.encode())
     for file, text in sorted(shelved.around.texts.items()):
         digest.update(f"{file}\n{text}".encode("utf-8", "backslashreplace"))
     for file in data_named(shelved.path, shelved.text):
@@ -175,6 +177,4 @@ def _judge_digest(project: Project) -> hashlib._Hash:
         files = [place] if place.is_file() else sorted(place.rglob("*.py"))
         for file in files or sorted(place.glob("*.json")):
             digest.update(file.read_bytes())
-    with contextlib.suppress(PackageNotFoundError):
-        digest.update(version("opentrons").encode())
     return digest

@@ -6,11 +6,11 @@ from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from .corpus_table import Results, Row, Told
+from .corpus_table import CorpusRow, Results, Told
 
 
 @dataclass(frozen=True)
-class Change:
+class VerdictChange:
     """A protocol that is judged in another way than before.
 
     Attributes:
@@ -20,13 +20,13 @@ class Change:
         come: Those that are new.
     """
 
-    before: Row
-    after: Row
+    before: CorpusRow
+    after: CorpusRow
     gone: tuple[Told, ...]
     come: tuple[Told, ...]
 
 
-def changes(before: Results, after: Results) -> Iterator[Change]:
+def changes(before: Results, after: Results) -> Iterator[VerdictChange]:
     """Protocols of both runs that differ in verdict, family, rules or findings; not in time."""
     for file, (row, told) in after.items():
         if file not in before:
@@ -37,14 +37,14 @@ def changes(before: Results, after: Results) -> Iterator[Change]:
         if _on_file(old_row, old_told) and _on_file(row, told):
             gone, come = _without(old_told, told), _without(told, old_told)
         if gone or come or _essence(old_row) != _essence(row):
-            yield Change(old_row, row, gone, come)
+            yield VerdictChange(old_row, row, gone, come)
 
 
-def _essence(row: Row) -> tuple[object, ...]:
+def _essence(row: CorpusRow) -> tuple[object, ...]:
     return row.verdict, row.family, row.rules, row.undecided, row.reason
 
 
-def _on_file(row: Row, told: tuple[Told, ...]) -> bool:
+def _on_file(row: CorpusRow, told: tuple[Told, ...]) -> bool:
     """Whether the findings that a row counts were kept beside it."""
     return bool(told) or not (row.findings or row.undecided)
 

@@ -15,7 +15,6 @@ from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from types import TracebackType
 from typing import IO, Any
 
 from ..errors import ConfigurationError
@@ -28,7 +27,7 @@ SKIPPED, CRASHED = "skipped", "crash"
 
 
 @dataclass(frozen=True)
-class Row:
+class CorpusRow:
     """One protocol.
 
     Attributes:
@@ -90,13 +89,13 @@ class Told:
     fix: str = ""
 
 
-Results = dict[str, tuple[Row, tuple[Told, ...]]]
+Results = dict[str, tuple[CorpusRow, tuple[Told, ...]]]
 """Rows with their findings, by file."""
 
-_COLUMNS = [f.name for f in dataclasses.fields(Row)]
+_COLUMNS = [f.name for f in dataclasses.fields(CorpusRow)]
 _LATER = {"decided": "", "not_applicable": "", "modules": "", "schema": "1"}
 """Columns that the first version had not, and what they say of its rows."""
-_NUMBERS = {f.name: float for f in dataclasses.fields(Row) if f.name.endswith("_s")}
+_NUMBERS = {f.name: float for f in dataclasses.fields(CorpusRow) if f.name.endswith("_s")}
 
 
 def findings_path(table: Path) -> Path:
@@ -109,7 +108,7 @@ def summary_path(table: Path) -> Path:
     return table.with_name(f"{table.stem}.summary.json")
 
 
-def write_summary(table: Path, rows: Sequence[Row]) -> None:
+def write_summary(table: Path, rows: Sequence[CorpusRow]) -> None:
     """Write what came of these protocols together, beside their table.
 
     Raises:
@@ -143,7 +142,7 @@ def read_results(table: Path) -> Results:
     Raises:
         ConfigurationError: It cannot be read, or is no table of a corpus.
     """
-    rows: dict[str, Row] = {}
+    rows: dict[str, CorpusRow] = {}
     try:
         with table.open(encoding="utf-8", newline="") as file:
             reader = csv.DictReader(file)
@@ -164,9 +163,9 @@ def read_results(table: Path) -> Results:
     return {file: (row, tuple(told_by_file.get(file, ()))) for file, row in rows.items()}
 
 
-def _row(values: dict[str, str]) -> Row:
+def _row(values: dict[str, str]) -> CorpusRow:
     numbers = {name: kind(values[name]) for name, kind in _NUMBERS.items()}
-    return Row(**{**values, **numbers, "findings": int(values["findings"])})  # type: ignore[arg-type]
+    return CorpusRow(**{**values, **numbers, "findings": int(values["findings"])})  # type: ignore[arg-type]
 
 
 def _read_findings(path: Path) -> dict[str, list[Told]]:
@@ -183,7 +182,7 @@ def _read_findings(path: Path) -> dict[str, list[Told]]:
     return told
 
 
-class Table:
+class CorpusTable:
     """Appends to a table and its findings. A context manager.
 
     Args:
@@ -194,7 +193,7 @@ class Table:
         ConfigurationError: It cannot be written.
     """
 
-    def __init__(self, path: Path, kept: Iterable[tuple[Row, Sequence[Told]]]) -> None:
+    def __init__(self, path: Path, kept: Iterable[tuple[CorpusRow, Sequence[Told]]]) -> None:
         head = io.StringIO()
         csv.writer(head, lineterminator="\n").writerow(_COLUMNS)
         rows, told = [head.getvalue()], []
@@ -208,19 +207,14 @@ class Table:
         except OSError as error:
             raise ConfigurationError(f"{path} cannot be written: {error.strerror}.") from None
 
-    def __enter__(self) -> Table:
+    def __enter__(self) -> CorpusTable:
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         self._rows.close()
         self._told.close()
 
-    def append(self, row: Row, findings: Sequence[Told]) -> None:
+    def append(self, row: CorpusRow, findings: Sequence[Told]) -> None:
         """Write one protocol: the findings first, so that a row is never without them."""
         for file, text in ((self._told, _findings_text(findings)), (self._rows, _row_text(row))):
             file.write(text)
@@ -235,7 +229,7 @@ def _written_anew(path: Path, text: str) -> IO[str]:
     return path.open("a", encoding="utf-8", errors="backslashreplace", newline="")
 
 
-def _row_text(row: Row) -> str:
+def _row_text(row: CorpusRow) -> str:
     text = io.StringIO()
     csv.writer(text, lineterminator="\n").writerow(map(csv_cell, dataclasses.astuple(row)))
     return text.getvalue()

@@ -12,7 +12,7 @@ from ..vocabulary import Finding, Remark
 from .combinations import combinations, count_all, values_of
 from .rehearser import Rehearser, TaskFailed
 from .result import Broken, Exploration, Problem, with_findings
-from .tasks import Check, Describe
+from .tasks import CheckTask, Describe
 
 CAUSES_AT_MOST = 5
 """Causes told per rule."""
@@ -56,7 +56,7 @@ def explore(
     def judge(values: Values) -> Outcome:
         there = dataclasses.replace(script, parameters={**script.parameters, **values})
         try:
-            report: Report = rehearser.perform(Check(there, options, rules, timeout_s))
+            report: Report = rehearser.perform(CheckTask(there, options, rules, timeout_s))
         except TaskFailed as failed:
             return failed.problem
         return report

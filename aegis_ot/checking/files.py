@@ -10,6 +10,10 @@ from typing import Any
 
 from ..errors import ConfigurationError, RehearsalError
 
+NO_GUARD = (
+    "aegis-ot check judges it (Protocol Designer's, or an analysis). What is run with the guard "
+    "is a Python protocol; today's Protocol Designer exports one."
+)
 _BINARY = "is a binary file, not a Python protocol."
 _CONTROL = re.compile(rb"[\x00-\x06\x0e-\x1a\x1c-\x1f]")
 """Bytes that no text has, in whatever encoding."""
@@ -25,7 +29,7 @@ def read_protocol(path: Path) -> str:
     if path.is_dir():
         raise ConfigurationError(f"is a folder; name the protocols in it: {path}/*.py")
     if path.suffix.lower() == ".json":
-        raise ConfigurationError("is a JSON file; only Python protocols can be rehearsed.")
+        raise ConfigurationError(f"is a JSON file: {NO_GUARD}")
     if path.suffix.lower() == ".zip":
         raise ConfigurationError("is a bundle; unpack it and check the protocol inside.")
     try:
@@ -43,12 +47,21 @@ def read_protocol(path: Path) -> str:
             raise ConfigurationError(_BINARY) from None
         line = data.count(b"\n", 0, error.start) + 1
         raise RehearsalError("is not UTF-8 text, as Opentrons demands.", line) from None
+    return as_protocol(text)
+
+
+def as_protocol(text: str) -> str:
+    """The same text, if it can be a Python protocol.
+
+    Raises:
+        ConfigurationError: It cannot; the message does not name the file.
+    """
     if "\0" in text:
         raise ConfigurationError(_BINARY)
     if not text.strip():
         raise ConfigurationError("is empty.")
     if text.lstrip().startswith("{") and _is_json(text):
-        raise ConfigurationError("holds JSON; only Python protocols can be rehearsed.")
+        raise ConfigurationError(f"holds JSON and is not named .json; {NO_GUARD}")
     return text
 
 

@@ -10,7 +10,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import Any
 
-from ..settings.values import READERS, Site
+from ..settings.values import READERS, SettingPlace
 from ..vocabulary import Remark
 
 _JUDGING = ("assay", "roles", "select", "ignore", "rules")
@@ -70,7 +70,9 @@ def _read(call: ast.Call) -> GuardArguments:
             unread.append(Remark(f"{told} written out as a literal, it counts.", line))
             continue
         if value is not None:
-            values[name] = READERS[name](value, Site(name, f"argument of the guard, line {line}"))
+            values[name] = READERS[name](
+                value, SettingPlace(name, f"argument of the guard, line {line}")
+            )
     return GuardArguments(values, tuple(unread))
 
 

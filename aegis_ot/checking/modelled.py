@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from ..preflight import Database, Options, Reading, Report
+from ..preflight import Options, Report, RuleSet
 from .tasks import Examined
 
 if TYPE_CHECKING:
@@ -31,7 +31,7 @@ class Asking:
 
 
 def ask_model(
-    asking: Asking, report: Report, examined: Examined, database: Database, options: Options
+    asking: Asking, report: Report, examined: Examined, rule_set: RuleSet, options: Options
 ) -> Judgement:
     """Judge a protocol, already checked, with a model.
 
@@ -40,10 +40,11 @@ def ask_model(
         report: What the checks say.
         examined: What the model gets to know, and the recording, which is judged again with what
             the model reads.
-        database: The rules in force.
+        rule_set: The rules in force.
         options: How it was checked.
     """
+    from ..preflight import Interpretation
     from ..reasoning import judge_in
 
-    reading = Reading(examined.recording, database, options)
+    reading = Interpretation(examined.recording, rule_set, options)
     return judge_in(asking.configuration, report, examined.dossier, reading, asking.backend)

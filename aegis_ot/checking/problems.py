@@ -51,8 +51,9 @@ def lacks_labware(problem: Problem) -> bool:
     return _NO_LABWARE.search(problem.message) is not None
 
 
-def with_helper(problem: Problem, file: Path, root: Path) -> Problem:
-    """Tells what to type where a module lacks: its folder, where the repository holds it once."""
+def with_helper(problem: Problem, file: Path, root: Path, engine: str = "") -> Problem:
+    """Tells what to type where a module lacks: its folder, where the repository holds it once.
+    A package goes into the ``engine`` of this version, if there was one."""
     name = problem.missing.partition(".")[0]
     if not name:
         return problem
@@ -61,9 +62,12 @@ def with_helper(problem: Problem, file: Path, root: Path) -> Problem:
         folder = shlex.quote(str(found.pop()))
         told = f"{name} of this repository is found with: PYTHONPATH={folder} aegis-ot check {file}"
     else:
+        package = "is installed where aegis-ot is, with pip"
+        if engine:
+            package = f"goes into its engine: aegis-ot engines install {engine} --with {name}"
         told = (
             "if it is a file of yours, give its folder: PYTHONPATH=FOLDER aegis-ot check "
-            f"{file}; a package is installed where aegis-ot is, with pip"
+            f"{file}; a package {package}"
         )
     return dataclasses.replace(problem, message=f"{problem.message.rstrip('.')}; {told}.")
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from .. import __version__
-from ..preflight import Database
+from ..preflight import RuleSet
 from ..preflight.rehearsal import undeclared
 from .result import CheckedProtocol, CheckRun, Problem
 from .run import CheckSettings, check_alike
@@ -20,12 +20,12 @@ class Project(NamedTuple):
     Attributes:
         files: The protocol files.
         settings: How to check them.
-        database: The rules in force, with ``settings.rules``.
+        rule_set: The rules in force, with ``settings.rules``.
     """
 
     files: Sequence[Path]
     settings: CheckSettings
-    database: Database
+    rule_set: RuleSet
 
 
 def check_projects(
@@ -53,7 +53,7 @@ def check_projects(
     given = (*settings.parameters, *settings.csv_parameters)
     return CheckRun(
         tuple(_refused_unknown([checked[file.as_posix()] for file in files], given)),
-        _together(project.database for project in projects),
+        _together(project.rule_set for project in projects),
         __version__,
         settings.explain_roles,
     )
@@ -62,11 +62,11 @@ def check_projects(
 def check_files(
     files: Sequence[Path],
     settings: CheckSettings,
-    database: Database,
+    rule_set: RuleSet,
     done: Callable[[CheckedProtocol], None] = lambda checked: None,
 ) -> CheckRun:
     """Check protocol files that are one project's; see :func:`check_projects`."""
-    return check_projects([Project(files, settings, database)], files, done)
+    return check_projects([Project(files, settings, rule_set)], files, done)
 
 
 def _refused_unknown(
@@ -86,13 +86,13 @@ def _refused_unknown(
             yield checked
 
 
-def _together(databases: Iterable[Database]) -> Database:
+def _together(databases: Iterable[RuleSet]) -> RuleSet:
     """Every rule of all of them, for the reports to name; each identifier once."""
     first, *others = databases
     families = list(first.families)
     known = {rule.id for rule in first.rules}
-    for database in others:
-        for family in database.families:
+    for rule_set in others:
+        for family in rule_set.families:
             new = tuple(rule for rule in family.rules if rule.id not in known)
             if new:
                 families.append(dataclasses.replace(family, rules=new))

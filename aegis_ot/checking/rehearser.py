@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import pickle
 import re
@@ -12,20 +13,33 @@ import tempfile
 import threading
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from types import TracebackType
 from typing import Any
 
 from ..errors import RehearsalError
-from .child import Answer, Link
+from .engines import Engine
+from .link import Link, LinkAnswer
 from .problems import PASSED_ON, late
 from .result import Problem
 from .tasks import Task
+from .warm import Joined, join, place_of, seconds_to_keep
 
 _MAIN = """import os, sys
 sys.path[:] = sys.argv.pop(1).split(os.pathsep)
 from aegis_ot.checking.child import main
 main()"""
 # Not `-m`: that puts the working folder first, where a json.py of the user's may lie.
+
+_LENT = """import sys
+sys.path[:] = [place for place in sys.path if place]
+from importlib.util import module_from_spec, spec_from_file_location
+folder = sys.argv.pop(1)
+spec = spec_from_file_location("aegis_ot", folder + "/__init__.py",
+                               submodule_search_locations=[folder])
+sys.modules["aegis_ot"] = package = module_from_spec(spec)
+spec.loader.exec_module(package)
+from aegis_ot.checking.child import main
+main()"""
+"""The same in an engine, which gets this very package and nothing else of this environment."""
 
 _NEEDED = re.compile(
     "PATH|PATHEXT|HOME|USER|LOGNAME|SHELL|TZ|LANG|LANGUAGE|VIRTUAL_ENV|TMPDIR|TMP|TEMP|USERPROFILE|"
@@ -37,6 +51,10 @@ _SECRET = re.compile(r"TOKEN|KEY|SECRET|PASS|CREDENTIAL|NOTIFY")
 
 _START_S = 180.0
 """Longest wait for opentrons to be loaded; slow on a busy machine with a cold disk."""
+
+_MORE_STARTS = 3
+"""How often a process is started anew where what it loaded was written meanwhile: by whoever
+installs, or by Python, which keeps what it compiled when a new installation first runs."""
 
 _AROUND_S = 60.0
 """Longest wait for all of a task but the protocol itself, which has a clock of its own."""
@@ -70,17 +88,43 @@ class TaskFailed(Exception):
         self.problem = problem
 
 
+class _Started:
+    """A process that was started for one rehearser."""
+
+    def __init__(self, process: subprocess.Popen[bytes]) -> None:
+        assert process.stdin
+        assert process.stdout
+        self._process = process
+        self.link = Link(process.stdout, process.stdin)
+
+    def kill(self) -> None:
+        _kill(self._process)
+
+    def end(self) -> str:
+        self.kill()
+        self.link.close()
+        if self._process.stderr:
+            self._process.stderr.close()
+        return f"exit status {self._process.wait()}"
+
+
 class Rehearser:
     """Performs tasks in another process, replaced whenever it had to be ended.
 
     Args:
         rules: Paths of further rules, loaded ahead.
+        engine: Whose ``opentrons``; the one here if left out.
+        lasting: Whether a process that outlives this one may serve it, and be started for it;
+            see :mod:`.warm`.
     """
 
-    def __init__(self, rules: Sequence[str] = ()) -> None:
+    def __init__(
+        self, rules: Sequence[str] = (), engine: Engine | None = None, lasting: bool = False
+    ) -> None:
         self._rules = tuple(rules)
-        self._process: subprocess.Popen[bytes] | None = None
-        self._link: Link | None = None
+        self._engine = engine
+        self._lasting = lasting
+        self._process: _Started | Joined | None = None
         self._cancelled = threading.Event()
         folder = tempfile.mkdtemp(prefix="aegis-ot-")
         self._folder = Path(folder)
@@ -90,15 +134,11 @@ class Rehearser:
         self._start()
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         self._end()
         self._stacks.unlink(missing_ok=True)
-        self._folder.rmdir()
+        with contextlib.suppress(OSError):  # removed with the system's temporary files
+            self._folder.rmdir()
 
     def perform(self, task: Task) -> Any:
         """Do a task and return its result.
@@ -112,6 +152,14 @@ class Rehearser:
             raise TaskFailed(Problem("was interrupted."))
         limit_s = 2 * task.timeout_s + _AROUND_S
         answer = self._ask(task, limit_s)
+        for _ in range(_MORE_STARTS):
+            if answer is None or not answer.stale:
+                break
+            self._end()
+            self.get_ready()
+            answer = self._ask(task, limit_s)
+        if answer is not None and answer.stale:
+            raise TaskFailed(Problem("what is installed here changed just now; check it again."))
         if answer is None:
             message = f"gave no answer within {limit_s:g} s, and was ended."
             raise TaskFailed(Problem(message))
@@ -137,55 +185,79 @@ class Rehearser:
         self._cancelled.set()
         process = self._process
         if process is not None:
-            _kill(process)
+            process.kill()
 
     def _start(self) -> None:
-        path = os.pathsep.join(map(os.path.abspath, filter(None, sys.path)))
-        self._process = subprocess.Popen(
-            [sys.executable, "-c", _MAIN, path, str(self._stacks), *self._rules],
-            env=environment_of_protocols(os.environ),
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-            start_new_session=True,
-        )
-        assert self._process.stdin
-        assert self._process.stdout
-        self._link = Link(self._process.stdout, self._process.stdin)
+        python = self._python()
+        environment = environment_of_protocols(os.environ)
+        keep_s = seconds_to_keep(os.environ) if self._lasting else 0.0
+        place = place_of(environment, python) if keep_s else None
+        if place is not None:
+            self._process = join(place, self._stacks)
+            if self._process is not None:
+                return
+        lasting = ("", "") if place is None else (str(place), f"{keep_s:g}")
+        try:
+            process = subprocess.Popen(
+                [*python, str(self._stacks), *lasting, *self._rules],
+                env=environment,
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.PIPE,
+                start_new_session=True,
+            )
+        except OSError as error:
+            raise RehearsalError(self._does_not_start(f": {error}")) from None
+        self._process = _Started(process)
         if self._cancelled.is_set():  # in between, so it was not there to be ended
-            _kill(self._process)
+            self._process.kill()
             return
         ready = self._ask(None, _START_S)
         if ready is None or ready.value != "ready":
-            raise RehearsalError(
-                "The rehearsing process does not start"
-                f"{': ' + ready.problem.message if ready and ready.problem else ''}. "
-                "Rehearsing needs opentrons; install it with: pip install 'aegis-ot[ot2]'."
-            )
+            why = f": {ready.problem.message}" if ready and ready.problem else ""
+            raise RehearsalError(self._does_not_start(why))
+        if place is not None:
+            self._process.end()  # it has detached itself, and listens
+            self._process = join(place, self._stacks)
+            if self._process is None:
+                self._lasting = False
+                self._start()
 
-    def _ask(self, task: Task | None, limit_s: float) -> Answer | None:
+    def _does_not_start(self, why: str) -> str:
+        told = f"The rehearsing process does not start{why}."
+        if self._engine is not None and self._engine.python:
+            version = self._engine.version
+            return f"{told} Type: aegis-ot engines remove {version}, and install it again."
+        return f"{told} Rehearsing needs opentrons; install it with: aegis-ot engines install"
+
+    def _python(self) -> list[str]:
+        if self._engine is not None and self._engine.python:
+            return [self._engine.python, "-c", _LENT, str(Path(__file__).resolve().parents[1])]
+        path = os.pathsep.join(map(os.path.abspath, filter(None, sys.path)))
+        return [sys.executable, "-c", _MAIN, path]
+
+    def _ask(self, task: Task | None, limit_s: float) -> LinkAnswer | None:
         """Send a task and wait for its answer; ``None`` when it had to be ended."""
-        assert self._link is not None
         assert self._process is not None
         overdue = threading.Event()
         process = self._process
 
         def end() -> None:
             overdue.set()
-            _kill(process)
+            process.kill()
 
         timer = threading.Timer(limit_s, end)
         timer.daemon = True
         timer.start()
-        answer: Answer | None
+        answer: LinkAnswer | None
         try:
             if task is not None:
-                self._link.send(task)
-            answer = self._link.receive()
-            if not isinstance(answer, Answer):
+                process.link.send(task)
+            answer = process.link.receive()
+            if not isinstance(answer, LinkAnswer):
                 raise pickle.UnpicklingError
         except pickle.UnpicklingError:
-            answer = Answer(problem=_GARBLED)
+            answer = LinkAnswer(problem=_GARBLED)
         except (EOFError, OSError):
             answer = None
         finally:
@@ -193,22 +265,15 @@ class Rehearser:
         if answer is not None and answer.problem == _GARBLED:
             self._end()  # what else it wrote would be taken for the next one's answer
         elif answer is None or overdue.is_set():
-            code = self._end()
+            how = self._end()
             if not overdue.is_set():
-                return Answer(died=f"exit status {code}")
+                return LinkAnswer(died=how)
             return None
         return answer
 
-    def _end(self) -> int:
-        process, link = self._process, self._link
-        self._process = self._link = None
-        if process is None or link is None:
-            return 0
-        _kill(process)
-        link.close()
-        if process.stderr:
-            process.stderr.close()
-        return process.wait()
+    def _end(self) -> str:
+        process, self._process = self._process, None
+        return process.end() if process is not None else ""
 
     def _last_words(self) -> str:
         """The stacks of all threads at the moment of its death, as far as it could tell."""

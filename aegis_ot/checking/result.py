@@ -7,9 +7,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from ..preflight import Database, Report
+from ..preflight import Report, RuleSet
 from ..preflight.judging import RoleEvidence, Waived, unanswered, verdict_of
 from ..vocabulary import Dossier, Finding, Remark, Undecided, VerdictWord
+from .designer_steps import DesignerStep
 
 if TYPE_CHECKING:
     from ..reasoning import Judgement
@@ -88,6 +89,9 @@ class CheckedProtocol:
         modules: Those from around it that its rehearsal imported, with their paths.
         rehearsal_s: Time of the rehearsal, s, where no model was asked.
         verdict_s: Time from the recording to the verdict, s.
+        playback: The rehearsal as a page plays it, where that was asked for.
+        unit: What the numbers of lines count: ``"line"``, or ``"command"`` where there are none.
+        steps: Of Protocol Designer, by the command's number, where the file tells them.
     """
 
     file: str
@@ -105,8 +109,11 @@ class CheckedProtocol:
     modules: Mapping[str, str] = field(default_factory=dict)
     rehearsal_s: float = 0.0
     verdict_s: float = 0.0
+    playback: Mapping[str, Any] | None = None
+    unit: str = "line"
+    steps: Mapping[int, DesignerStep] = field(default_factory=dict)
 
-    def states(self, database: Database) -> dict[str, str]:
+    def states(self, rule_set: RuleSet) -> dict[str, str]:
         """What became of each rule: ``decided``, ``undecided``, ``not_applicable`` (its assay is
         not this one, or nothing of it occurs), or ``off``; empty where it could not be judged."""
         if self.report is None:
@@ -121,7 +128,7 @@ class CheckedProtocol:
             else "decided"
             if rule.id in decided
             else "not_applicable"
-            for rule in database.rules
+            for rule in rule_set.rules
         }
 
     @property
@@ -178,13 +185,13 @@ class CheckRun:
 
     Attributes:
         protocols: In the order given.
-        database: The rules in force.
+        rule_set: The rules in force.
         version: Of this package.
         explain_roles: Whether roles and their evidence are to be shown.
     """
 
     protocols: Sequence[CheckedProtocol]
-    database: Database
+    rule_set: RuleSet
     version: str
     explain_roles: bool = field(default=False)
 

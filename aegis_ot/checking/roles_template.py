@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ..errors import ConfigurationError
-from ..preflight import Database, Report
+from ..preflight import Report, RuleSet
 from ..preflight.judging import spelled
 from ..vocabulary import WellRef
 from .result import CheckedProtocol
@@ -15,13 +15,13 @@ _HOW = (
 )
 
 
-def roles_template(checked: CheckedProtocol, database: Database) -> str:
+def roles_template(checked: CheckedProtocol, rule_set: RuleSet) -> str:
     """A decorator with every role of the families that apply: filled with what is known, each entry
     with its evidence; what nothing names stands in comments below.
 
     Args:
         checked: The protocol.
-        database: The rules, for the roles of its families.
+        rule_set: The rules, for the roles of its families.
 
     Raises:
         ConfigurationError: It could not be judged, so nothing of its roles is known.
@@ -33,13 +33,13 @@ def roles_template(checked: CheckedProtocol, database: Database) -> str:
     families = [one.family for one in report.families if one.applies] or [report.family]
     known = _by_role(report)
     lines = [_HOW, "@guard("]
-    asked = (database.rule(one.rule) for one in report.undecided)
+    asked = (rule_set.rule(one.rule) for one in report.undecided)
     beside = {family.family for family, rule in asked if rule.scope == "family"} - {*families}
     if len(families) == 1 and not beside:  # one that names one of several judges by no other
         lines.append(f'    assay="{families[0]}",')
     lines.append("    roles={")
     titles = {
-        name: spec.title for one in families for name, spec in database.family(one).roles.items()
+        name: spec.title for one in families for name, spec in rule_set.family(one).roles.items()
     }
     for name, title in titles.items():
         found = known.get(name, {})

@@ -12,7 +12,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from ..errors import AegisError
-from ..preflight import Database, Options, Report, Script, check_script
+from ..preflight import Options, Report, RuleSet, Script, check_script
 from ..preflight.rules import Example, Family, RuleSpec
 from ..vocabulary import Finding, Severity
 from .rule_example_files import examples_of
@@ -78,7 +78,7 @@ def _deck(code: Iterable[str]) -> Iterator[str]:
             yield f"{name} = {load}"
 
 
-def run_examples(database: Database, rules: Iterable[str] = ()) -> list[ExampleResult]:
+def run_examples(rule_set: RuleSet, rules: Iterable[str] = ()) -> list[ExampleResult]:
     """Run the examples of the given rules, or of all.
 
     A passing example must bring no finding of any rule of the family, and leave the rule decided;
@@ -91,16 +91,16 @@ def run_examples(database: Database, rules: Iterable[str] = ()) -> list[ExampleR
     wanted = set(rules)
     results = []
     reports: dict[tuple[str, tuple[str, ...]], Report] = {}
-    for family in database.families:
+    for family in rule_set.families:
         carried = examples_of(family)
         for rule in family.rules:
             if wanted and rule.id not in wanted:
                 continue
             examples = carried[rule.id]
             for example in examples.passing:
-                results.append(_run(database, reports, family, rule, example, expected=False))
+                results.append(_run(rule_set, reports, family, rule, example, expected=False))
             for example in examples.failing:
-                results.append(_run(database, reports, family, rule, example, expected=True))
+                results.append(_run(rule_set, reports, family, rule, example, expected=True))
             if not (examples.passing and examples.failing):
                 none = "a passing and a failing one at least"
                 results.append(ExampleResult(rule.id, "its examples", True, False, f"needs {none}"))
@@ -108,7 +108,7 @@ def run_examples(database: Database, rules: Iterable[str] = ()) -> list[ExampleR
 
 
 def _run(
-    database: Database,
+    rule_set: RuleSet,
     reports: dict[tuple[str, tuple[str, ...]], Report],
     family: Family,
     rule: RuleSpec,
@@ -118,7 +118,7 @@ def _run(
     key = (family.family, example.code)
     try:
         if key not in reports:  # rules of one family share examples
-            reports[key] = _report(database, family, example)
+            reports[key] = _report(rule_set, family, example)
         report = reports[key]
     except AegisError as error:
         return ExampleResult(rule.id, example.title, expected, False, str(error))
@@ -143,6 +143,6 @@ def _worst(findings: Iterable[Finding]) -> str:
     return "warning"
 
 
-def _report(database: Database, family: Family, example: Example) -> Report:
+def _report(rule_set: RuleSet, family: Family, example: Example) -> Report:
     script = Script(text=protocol_text(example), file_name="example.py")
-    return check_script(script, database, Options(assay=(family.family,)))
+    return check_script(script, rule_set, Options(assay=(family.family,)))

@@ -11,16 +11,18 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from ..errors import ConfigurationError, RehearsalError
-from ..preflight import Database, Options
+from ..errors import AegisError, ConfigurationError, RehearsalError
+from ..preflight import Options, RuleSet
 from ..preflight.rehearsal import Script
 from ..preflight.source import source_lines
 from ..settings import Settings
 from ..vocabulary import Finding, Remark
 from .baseline import Baseline
 from .configuration import ConfiguredWaiver
+from .documents import check_document
+from .engines import EngineMissing, engine_for, need_of
 from .exploring import explore
-from .files import read_protocol
+from .files import as_protocol, read_protocol
 from .guard_arguments import GuardArguments, guard_arguments
 from .modelled import Asking, ask_model
 from .problems import lacks_labware, with_helper
@@ -28,9 +30,9 @@ from .reaching import reaches
 from .rehearser import Rehearser, TaskFailed
 from .result import CheckedProtocol, Problem, with_findings
 from .shelf import Definition, definitions_below, named_in, with_own_values
-from .side_by_side import LazyRehearser, check_each
+from .side_by_side import LazyRehearser, RehearserPool, check_each
 from .surroundings import Placed, Surroundings, root_of, surroundings_of
-from .tasks import CheckWithDossier, Describe, Examined, Timed, TimedCheck
+from .tasks import CheckWithDossier, Describe, Examined, TimedCheck, TimedReport
 from .waiving import waive, with_stale_waivers
 
 
@@ -55,6 +57,10 @@ class CheckSettings:
         shelves: Folders in which, beside the working folder, a protocol's modules are looked for
             where it lies in no checkout.
         definitions: Finds custom labware below the root of a checkout, where some lacks.
+        robot_version: Of the robot that the protocols are for; ``""`` where none is named.
+        playback: Whether the reports are to play the rehearsal.
+        pool: Keeps the rehearsing processes for the next call.
+        texts: Texts that an editor has not saved yet, by file: they go before what is on the disk.
     """
 
     options: Options = field(default_factory=Options)
@@ -72,12 +78,16 @@ class CheckSettings:
     jobs: int = 1
     shelves: tuple[Path, ...] = ()
     definitions: Callable[[Path], Sequence[Definition]] = definitions_below
+    robot_version: str = ""
+    texts: Mapping[Path, str] = field(default_factory=dict)
+    playback: bool = False
+    pool: RehearserPool | None = None
 
 
 def check_alike(
     files: Sequence[Path],
     settings: CheckSettings,
-    database: Database,
+    rule_set: RuleSet,
     done: Callable[[CheckedProtocol], None] = lambda checked: None,
 ) -> list[CheckedProtocol]:
     """Check protocol files by the same settings. A bad one does not keep the others from it.
@@ -85,7 +95,7 @@ def check_alike(
     Args:
         files: Protocol files.
         settings: How to check.
-        database: The rules in force, with ``settings.rules``.
+        rule_set: The rules in force, with ``settings.rules``.
         done: Told of each file, in their order, when it is done.
 
     Raises:
@@ -94,21 +104,24 @@ def check_alike(
     settings = dataclasses.replace(settings, definitions=functools.cache(settings.definitions))
 
     def check(file: Path, rehearser: LazyRehearser) -> CheckedProtocol:
-        return check_file(file, settings, database, rehearser)
+        return check_file(file, settings, rule_set, rehearser)
 
     # One question at a time to a model: its service counts them.
     jobs = settings.jobs if settings.asking is None else 1
-    protocols = check_each(files, jobs, settings.rules, check, done)
+    protocols = check_each(files, jobs, settings.rules, check, done, settings.pool)
     return with_stale_waivers(protocols, settings.waivers, settings.waiver_root)
 
 
 def check_file(
-    file: Path, settings: CheckSettings, database: Database, rehearser: LazyRehearser
+    file: Path, settings: CheckSettings, rule_set: RuleSet, rehearser: LazyRehearser
 ) -> CheckedProtocol:
     """Check one protocol where it lies."""
     name = file.as_posix()
+    if file.suffix.lower() == ".json" and file.is_file():
+        return _check_document(file, settings, rule_set, rehearser)
     try:
-        text = read_protocol(file)
+        unsaved = settings.texts.get(file)
+        text = read_protocol(file) if unsaved is None else as_protocol(unsaved)
         whole = with_own_values(file, text)
     except ConfigurationError as error:
         return CheckedProtocol(name, problem=Problem(str(error)))
@@ -121,7 +134,7 @@ def check_file(
         text=whole,
         file_name=file.name,
         parameters=settings.parameters,
-        csv_parameters=settings.csv_parameters,
+        csv_parameters={name: str(path) for name, path in settings.csv_parameters.items()},
         extra_labware=settings.labware,
         folder=str(file.resolve().parent),
         modules=around.modules,
@@ -131,27 +144,51 @@ def check_file(
         options = options_for(said, settings.options)
     except ConfigurationError as error:
         return CheckedProtocol(name, problem=Problem(str(error)), lines=lines)
-    if options.leave_none(database):
+    if options.leave_none(rule_set):
         told = "no rule is left to judge it by, with what its guard selects and ignores."
         return CheckedProtocol(name, problem=Problem(told), lines=lines)
-    process = rehearser.get()
-    process.get_ready()
+    try:
+        engine = engine_for(need_of(text), settings.robot_version)
+        process = rehearser.get(engine)
+        process.get_ready()
+    except (EngineMissing, RehearsalError) as error:
+        return CheckedProtocol(name, problem=Problem(str(error), error.line), lines=lines)
+    version = engine.version if engine.python else ""
     start = time.monotonic()
     script, declared = _with_own_values(process, script, settings.timeout_s)
     try:
-        judged = _judge_in(root, around, settings, process, script, options, database)
+        judged = _judge_in(root, around, settings, process, script, options, rule_set)
     except TaskFailed as failed:
-        judged = CheckedProtocol(name, problem=with_helper(failed.problem, file, root))
+        judged = CheckedProtocol(name, problem=with_helper(failed.problem, file, root, version))
     checked = dataclasses.replace(
         judged,
         file=name,
         lines=lines,
         seconds=time.monotonic() - start,
         declared=declared,
-        off=tuple(rule.id for rule in database.rules if options.severity_of(rule) == "off"),
+        off=tuple(rule.id for rule in rule_set.rules if options.severity_of(rule) == "off"),
         modules={module: around.modules[module].path for module in judged.modules},
     )
-    return _settle(_with_notes(checked, reaches(text)), said, settings, around)
+    notes = [f"rehearsed with opentrons {version}."] if version else []
+    return _settle(_with_notes(checked, [*notes, *reaches(text)]), said, settings, around)
+
+
+def _check_document(
+    file: Path, settings: CheckSettings, rule_set: RuleSet, rehearser: LazyRehearser
+) -> CheckedProtocol:
+    how = (settings.options, settings.timeout_s, settings.robot_version)
+    try:
+        checked = check_document(file, *how, rule_set, rehearser)
+    except TaskFailed as failed:
+        return CheckedProtocol(file.as_posix(), problem=failed.problem)
+    except AegisError as error:
+        return CheckedProtocol(file.as_posix(), problem=Problem(str(error)))
+    off = tuple(rule.id for rule in rule_set.rules if settings.options.severity_of(rule) == "off")
+    if settings.asking is not None:
+        checked = _with_notes(checked, ["no model was asked: there is no source to read."])
+    return _settle(
+        dataclasses.replace(checked, off=off), GuardArguments(), settings, Surroundings({}, {})
+    )
 
 
 def _judge_in(
@@ -161,11 +198,11 @@ def _judge_in(
     rehearser: Rehearser,
     script: Script,
     options: Options,
-    database: Database,
+    rule_set: RuleSet,
 ) -> CheckedProtocol:
     """Judge; where custom labware lacks, with the definitions of the same repository."""
     try:
-        return _judge(rehearser, script, options, settings, database)
+        return _judge(rehearser, script, options, settings, rule_set)
     except TaskFailed as failed:
         if not lacks_labware(failed.problem):
             raise
@@ -176,7 +213,7 @@ def _judge_in(
             raise
     labware = {**{one.uri: one.content for one in found}, **script.extra_labware}
     script = dataclasses.replace(script, extra_labware=labware)
-    judged = _judge(rehearser, script, options, settings, database)
+    judged = _judge(rehearser, script, options, settings, rule_set)
     notes = [
         f"the labware {one.load_name} is defined by {os.path.relpath(one.file, place.parent)}, "
         "of the same repository."
@@ -220,25 +257,26 @@ def _judge(
     script: Script,
     options: Options,
     settings: CheckSettings,
-    database: Database,
+    rule_set: RuleSet,
 ) -> CheckedProtocol:
     """Rehearse and judge, with other parameters and with a model where that is asked for."""
     how = (script, options, settings.rules, settings.timeout_s)
+    asked = (*how, settings.playback)
     examined: Examined | None = None
-    timed: Timed | None = None
+    timed: TimedReport | None = None
     if settings.asking is None:
-        timed = rehearser.perform(TimedCheck(*how))
+        timed = rehearser.perform(TimedCheck(*asked))
         assert timed is not None
-        report, modules = timed.report, timed.modules
+        report, modules, played = timed.report, timed.modules, timed.playback
     else:
-        examined = rehearser.perform(CheckWithDossier(*how))
+        examined = rehearser.perform(CheckWithDossier(*asked))
         assert examined is not None
-        report, modules = examined.report, examined.modules
+        report, modules, played = examined.report, examined.modules, examined.playback
     exploration = judgement = None
     if settings.all_parameters:
         report, exploration = explore(rehearser, *how, report)
     if settings.asking is not None and examined is not None:
-        judgement = ask_model(settings.asking, report, examined, database, options)
+        judgement = ask_model(settings.asking, report, examined, rule_set, options)
         report = judgement.report
     return CheckedProtocol(
         script.file_name,
@@ -247,6 +285,7 @@ def _judge(
         judgement=judgement,
         dossier=examined.dossier if examined else None,
         modules=dict.fromkeys(modules, ""),
+        playback=played,
         rehearsal_s=timed.rehearsal_s if timed else 0.0,
         verdict_s=timed.verdict_s if timed else 0.0,
     )

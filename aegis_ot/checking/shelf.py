@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import ConfigurationError, RehearsalError
+from .documents import is_document
 from .files import read_protocol
 from .result import Problem
 from .surroundings import NO_SOURCES, Surroundings, root_of, surroundings_of
@@ -70,7 +71,8 @@ def find_protocols(folders: Sequence[Path]) -> list[Shelved]:
     """Every protocol below these folders, in the order of their paths.
 
     A Python file is one if it defines ``run`` and names Opentrons, or is written for the first
-    API. Hidden folders and installed packages are passed over.
+    API; a JSON file if Protocol Designer wrote it, or it is an analysis. Hidden folders and
+    installed packages are passed over.
 
     Raises:
         ConfigurationError: One of them is no folder.
@@ -86,6 +88,8 @@ def find_protocols(folders: Sequence[Path]) -> list[Shelved]:
                 shelved = _shelved(path, definitions, root_of(path, [*folders, Path.cwd()]))
                 if shelved is not None:
                     found[path.resolve()] = shelved
+        for path in filter(is_document, sorted(_files(folder, ".json"))):
+            found.setdefault(path.resolve(), Shelved(path, _rough_text(path)))
     return list(found.values())
 
 
@@ -99,9 +103,8 @@ def protocols_named(places: Sequence[Path]) -> list[Path]:
     for place in places:
         here = [place]
         if place.is_dir():
-            here = [
-                path for path in sorted(_files(place, ".py")) if _is_protocol(_rough_text(path))
-            ]
+            here = [p for p in sorted(_files(place, ".py")) if is_protocol(_rough_text(p))]
+            here += [p for p in sorted(_files(place, ".json")) if is_document(p)]
             if not here:
                 told = "a protocol defines run(protocol) and names Opentrons or an apiLevel"
                 raise ConfigurationError(
@@ -170,10 +173,10 @@ def _shelved(path: Path, definitions: Sequence[Definition], root: Path) -> Shelv
     try:
         text = read_protocol(path)
     except (ConfigurationError, RehearsalError) as error:
-        if not _is_protocol(_rough_text(path)):
+        if not is_protocol(_rough_text(path)):
             return None
         return Shelved(path, skipped=Problem(str(error), getattr(error, "line", None)))
-    if not _is_protocol(text):
+    if not is_protocol(text):
         return None
     if not _RUN.search(text):
         told = "it is written for Opentrons' first API (it defines no run), which is gone."
@@ -194,7 +197,8 @@ def _rough_text(path: Path) -> str:
         return ""
 
 
-def _is_protocol(text: str) -> bool:
+def is_protocol(text: str) -> bool:
+    """Whether a Python text is a protocol: it defines ``run`` and names Opentrons."""
     if _RUN.search(text):
         return bool(_OPENTRONS.search(text))
     return bool(_FIRST_API.search(text))
@@ -238,17 +242,19 @@ def _with_values(text: str, values: Mapping[str, Any]) -> str:
 
 
 def _definition(path: Path) -> Iterator[Definition]:
-    """The labware definition in this file, if it is one and not Opentrons' own."""
+    """The labware definitions in this file that are not Opentrons' own: the file is one, or a
+    protocol of Protocol Designer that carries those which it uses."""
     try:
         if path.stat().st_size > _LARGEST_DEFINITION_BYTES:
             return
         data = path.read_bytes()
         if b'"loadName"' not in data or b'"wells"' not in data:
             return
-        content = json.loads(data)
-        name, namespace = content["parameters"]["loadName"], content["namespace"]
-        uri = f"{namespace}/{name}/{content['version']}"
-    except (OSError, ValueError, KeyError, TypeError):
+        document = json.loads(data)
+        for content in document.get("labwareDefinitions", {"": document}).values():
+            name, namespace = content["parameters"]["loadName"], content["namespace"]
+            uri = f"{namespace}/{name}/{content['version']}"
+            if namespace != "opentrons":
+                yield Definition(path.resolve(), uri, str(name), content)
+    except (OSError, ValueError, KeyError, TypeError, AttributeError):
         return
-    if namespace != "opentrons":
-        yield Definition(path.resolve(), uri, str(name), content)

@@ -8,9 +8,9 @@ import threading
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor, wait
 from contextlib import ExitStack
-from types import TracebackType
 from typing import TypeVar
 
+from .engines import Engine
 from .rehearser import Rehearser
 
 Item = TypeVar("Item")
@@ -28,7 +28,7 @@ def processors() -> int:
 
 
 class LazyRehearser:
-    """A rehearser that is started when the first readable file needs it.
+    """Rehearsers, one for each engine, started when the first readable file needs them.
 
     Args:
         rules: Paths of further rules, loaded ahead.
@@ -40,36 +40,63 @@ class LazyRehearser:
     def __init__(self, rules: tuple[str, ...]) -> None:
         self._rules = rules
         self._lock = threading.Lock()
-        self._rehearser: Rehearser | None = None
+        self._rehearsers: dict[str, Rehearser] = {}
         self.cancelled = threading.Event()
 
     def __enter__(self) -> LazyRehearser:
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        if self._rehearser is not None:
-            self._rehearser.__exit__(kind, error, trace)
+    def __exit__(self, *_: object) -> None:
+        for rehearser in self._rehearsers.values():
+            rehearser.__exit__()
 
-    def get(self) -> Rehearser:
-        """The rehearser; it starts its process with the first task."""
+    def get(self, engine: Engine) -> Rehearser:
+        """The rehearser with this engine; it starts its process with the first task."""
         with self._lock:
-            if self._rehearser is None:
-                self._rehearser = Rehearser(self._rules)
+            found = self._rehearsers.get(engine.python)
+            if found is None:
+                found = self._rehearsers[engine.python] = Rehearser(
+                    self._rules, engine, lasting=True
+                )
                 if self.cancelled.is_set():
-                    self._rehearser.cancel()
-            return self._rehearser
+                    found.cancel()
+            return found
 
     def cancel(self) -> None:
         """End what it does now, and all that it is asked from now on."""
         with self._lock:
             self.cancelled.set()
-            if self._rehearser is not None:
-                self._rehearser.cancel()
+            for rehearser in self._rehearsers.values():
+                rehearser.cancel()
+
+
+class RehearserPool:
+    """Rehearsers that stay alive from one call to the next; close it when no more will come."""
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._idle: dict[tuple[str, ...], list[LazyRehearser]] = {}
+
+    def take(self, rules: tuple[str, ...]) -> LazyRehearser:
+        """One that nobody else has."""
+        with self._lock:
+            idle = self._idle.get(rules)
+            return idle.pop() if idle else LazyRehearser(rules)
+
+    def give(self, rules: tuple[str, ...], rehearser: LazyRehearser) -> None:
+        """Put it back."""
+        if rehearser.cancelled.is_set():
+            rehearser.__exit__(None, None, None)
+            return
+        with self._lock:
+            self._idle.setdefault(rules, []).append(rehearser)
+
+    def close(self) -> None:
+        """End all that are idle."""
+        with self._lock:
+            idle, self._idle = self._idle, {}
+        for rehearser in (one for several in idle.values() for one in several):
+            rehearser.__exit__(None, None, None)
 
 
 def check_each(
@@ -78,6 +105,7 @@ def check_each(
     rules: tuple[str, ...],
     check: Callable[[Item, LazyRehearser], T],
     done: Callable[[T], None] = lambda _: None,
+    pool: RehearserPool | None = None,
 ) -> list[T]:
     """What comes of each item, in the order of the items, however long each one takes.
 
@@ -89,11 +117,17 @@ def check_each(
         rules: Paths of further rules.
         check: Checks one, in a thread of its own if there are several jobs.
         done: Told of each result, in the order of the items, in the caller's thread.
+        pool: Lends the rehearsers, and keeps them; without one they end with this call.
     """
     results: list[T] = []
     jobs = max(1, min(jobs, len(items)))
     with ExitStack() as stack:
-        rehearsers = [stack.enter_context(LazyRehearser(rules)) for _ in range(jobs)]
+        lender = pool or RehearserPool()
+        if pool is None:
+            stack.callback(lender.close)
+        rehearsers = [lender.take(rules) for _ in range(jobs)]
+        for rehearser in rehearsers:
+            stack.callback(lender.give, rules, rehearser)
         if jobs == 1:
             for item in items:
                 results.append(check(item, rehearsers[0]))
@@ -110,9 +144,9 @@ def check_each(
             finally:
                 idle.put(rehearser)
 
-        pool = ThreadPoolExecutor(jobs, "aegis-ot-check")
+        threads = ThreadPoolExecutor(jobs, "aegis-ot-check")
         try:
-            for future in [pool.submit(work, item) for item in items]:
+            for future in [threads.submit(work, item) for item in items]:
                 while not future.done():
                     wait([future], _LISTEN_S)
                 results.append(future.result())
@@ -120,8 +154,8 @@ def check_each(
         except BaseException:
             for rehearser in rehearsers:
                 rehearser.cancel()  # first: an impatient second Ctrl-C may end this block
-            pool.shutdown(wait=False, cancel_futures=True)
+            threads.shutdown(wait=False, cancel_futures=True)
             raise
         finally:
-            pool.shutdown()
+            threads.shutdown()
     return results

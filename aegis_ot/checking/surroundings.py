@@ -8,15 +8,17 @@ checkout. That holds for the rehearsal only, and is told.
 from __future__ import annotations
 
 import ast
+import builtins
 import contextlib
 import os
 import re
 import sys
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from importlib.machinery import ModuleSpec, PathFinder
 from pathlib import Path
 from types import ModuleType
+from typing import Any
 
 from ..preflight.rehearsal import Script
 from ..vocabulary import Remark
@@ -24,26 +26,37 @@ from ..vocabulary import Remark
 _LARGEST_MODULE_BYTES = 1_000_000
 _LARGEST_DATA_BYTES = 20_000_000
 _FILE_NAMES = re.compile(r"""["']([^"'\n\\]{1,200}\.\w{1,6})["']""")
+_DATA_NAMES = re.compile(r"""["']([^"'\n]{1,200}\.(?:json|csv|tsv|txt|xlsx?|ya?ml))["']""", re.I)
+_MOST_FOLDERS = 5000
 NO_SOURCES = frozenset({"__pycache__", "node_modules", "site-packages", "venv", "build", "dist"})
 """Folders, beside hidden ones, that hold no protocols and no labware of a laboratory."""
 
 
 @dataclass(frozen=True)
 class Neighbour:
-    """A module that a protocol, or another module of its, imports and that lies around it.
+    """A module that a protocol, or another module of its, imports and that lies around it; or a
+    file that it reads from a place which is not there, and that lies in its repository.
 
     Attributes:
         folder: Where it lies.
         path: Of its file or package, as seen from the protocol's folder.
-        line: Where the protocol imports it; ``None`` where another module does.
+        line: Where the protocol names it; ``None`` where another module does.
+        is_data: Whether it is such a file.
     """
 
     folder: str
     path: str
     line: int | None
+    is_data: bool = False
 
     def told(self, name: str) -> Remark:
         """That it was found there."""
+        if self.is_data:
+            return Remark(
+                f"It reads {name} from a place that is not there; the one at {self.path} was read "
+                "for this rehearsal only: name it by a path that the robot has.",
+                self.line,
+            )
         return Remark(
             f"It imports {name}, which was found at {self.path} for this rehearsal only: Opentrons "
             f"loads a protocol alone, so {name} has to be installed on the robot as well.",
@@ -57,7 +70,7 @@ class Placed(Script):
 
     Attributes:
         folder: Its folder; ``""`` for none.
-        modules: What it imports from around it, by name.
+        modules: What it imports or reads from around it, by name.
     """
 
     folder: str = ""
@@ -119,7 +132,32 @@ def surroundings_of(path: Path, text: str, root: Path) -> Surroundings:
                     if found not in texts and found != path.resolve():
                         texts[found] = _text(found)
                         open_.append((texts[found], found))
-    return Surroundings(modules, texts)
+    return Surroundings({**modules, **dict(_data_elsewhere(own, text, root))}, texts)
+
+
+def _data_elsewhere(own: Path, text: str, root: Path) -> Iterator[tuple[str, Neighbour]]:
+    """Files that a protocol's text names, which are not where it says, and lie in its repository
+    once: by an author's own path, or one from the root.
+    """
+    wanted: dict[str, int] = {}
+    for found in _DATA_NAMES.finditer(text):
+        with contextlib.suppress(OSError, ValueError):
+            if not (own / found[1]).exists():
+                name = re.split(r"[/\\]", found[1])[-1]
+                wanted.setdefault(name, text.count("\n", 0, found.start()) + 1)
+    if not wanted or not (root / ".git").exists():
+        return
+    places: dict[str, list[Path]] = {}
+    for number, (folder, below, files) in enumerate(os.walk(root)):
+        below[:] = [name for name in below if name[0] != "." and name not in NO_SOURCES]
+        for name in wanted.keys() & set(files):
+            places.setdefault(name, []).append(Path(folder))
+        if number > _MOST_FOLDERS:
+            return
+    for name, folders in places.items():
+        if len({(folder / name).read_bytes() for folder in folders}) == 1:
+            shown = Path(os.path.relpath(folders[0] / name, own)).as_posix()
+            yield name, Neighbour(str(folders[0]), shown, wanted[name], is_data=True)
 
 
 def data_named(path: Path, text: str) -> Iterator[Path]:
@@ -183,12 +221,14 @@ def standing_in_place(script: Script) -> Iterator[list[str]]:
         yield []
         return
     finder = _Finder(script.modules)
-    before, known = os.getcwd(), set(sys.modules)
+    before, known, opens = os.getcwd(), set(sys.modules), open
     os.chdir(script.folder)
     sys.meta_path.append(finder)
+    builtins.open = finder.opening(opens)
     try:
         yield finder.found
     finally:
+        builtins.open = opens
         sys.meta_path.remove(finder)
         for name in set(sys.modules) - known:
             if name.partition(".")[0] in finder.found:
@@ -197,7 +237,7 @@ def standing_in_place(script: Script) -> Iterator[list[str]]:
 
 
 class _Finder:
-    """Finds modules around a protocol that no other finder has found."""
+    """Finds modules around a protocol that no other finder has found, and files that it reads."""
 
     def __init__(self, modules: Mapping[str, Neighbour]) -> None:
         self._modules = modules
@@ -207,9 +247,26 @@ class _Finder:
         self, name: str, path: Sequence[str] | None, target: ModuleType | None = None
     ) -> ModuleSpec | None:
         """As the import system asks."""
-        if path is not None or name not in self._modules:
+        if path is not None or name not in self._modules or self._modules[name].is_data:
             return None
         spec = PathFinder.find_spec(name, [self._modules[name].folder])
         if spec is not None and name not in self.found:
             self.found.append(name)
         return spec
+
+    def opening(self, opens: Callable[..., Any]) -> Callable[..., Any]:
+        """An ``open`` that reads a file which is not where it is looked for from where it lies."""
+
+        def opened(file: Any, *args: Any, **kwargs: Any) -> Any:
+            try:
+                return opens(file, *args, **kwargs)
+            except FileNotFoundError:
+                name = re.split(r"[/\\]", str(file))[-1]
+                there = self._modules.get(name)
+                if there is None or not there.is_data:
+                    raise
+                if name not in self.found:
+                    self.found.append(name)
+                return opens(os.path.join(there.folder, name), *args, **kwargs)
+
+        return opened

@@ -5,32 +5,22 @@ from __future__ import annotations
 import contextlib
 import functools
 import time
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, Protocol, runtime_checkable
+from typing import TYPE_CHECKING, Any, Protocol, runtime_checkable
 
 from ..errors import AegisError
-from ..preflight import (
-    Database,
-    Options,
-    Reading,
-    Report,
-    check_script,
-    judge,
-    load_database,
-    record,
-)
-from ..preflight.opinion import check_with_dossier
-from ..preflight.rehearsal import (
-    Parameter,
-    Recording,
-    Script,
-    declared_parameters,
-    interrupted_after,
-    load,
-)
+from ..preflight import Options, Report, RuleSet, load_rules
+from ..preflight.rehearsal import Parameter, Script
 from ..vocabulary import Dossier
-from .rule_examples import ExampleResult, run_examples
 from .surroundings import standing_in_place
+
+if TYPE_CHECKING:
+    from ..preflight import Interpretation
+    from ..preflight.rehearsal import Recording
+    from .rule_examples import ExampleResult
+
+# What performs a task is loaded where it is performed: whoever sends it has no use for that.
 
 RulePaths = tuple[str, ...]
 
@@ -51,14 +41,10 @@ class Task(Protocol):
         """Do it; the result is sent back."""
 
 
-@dataclass(frozen=True)
-class _OfProtocol:
-    """What it takes to judge a protocol."""
+class OfScript:
+    """A task that a protocol's script is needed for."""
 
     script: Script
-    options: Options
-    rules: RulePaths
-    timeout_s: float
 
     @property
     def file_name(self) -> str:
@@ -67,38 +53,57 @@ class _OfProtocol:
 
 
 @dataclass(frozen=True)
-class Check(_OfProtocol):
+class _OfProtocol(OfScript):
+    """What it takes to judge a protocol."""
+
+    script: Script
+    options: Options
+    rules: RulePaths
+    timeout_s: float
+    playback: bool = False
+
+
+@dataclass(frozen=True)
+class CheckTask(_OfProtocol):
     """Rehearse a protocol and judge it."""
 
     def perform(self) -> Report:
         """Judge."""
+        from ..preflight import check_script
+
         with standing_in_place(self.script):
-            return check_script(self.script, _database(self.rules), self.options, self.timeout_s)
+            return check_script(self.script, _rule_set(self.rules), self.options, self.timeout_s)
 
 
 @dataclass(frozen=True)
-class Timed:
-    """A report, what it took to come to it, s, and the modules that lay around the protocol."""
+class TimedReport:
+    """A report, what it took to come to it, s, the modules that lay around the protocol, and, if
+    that was asked for, the run as a page plays it."""
 
     report: Report
     rehearsal_s: float
     verdict_s: float
     modules: tuple[str, ...] = ()
+    playback: Mapping[str, Any] | None = None
 
 
 @dataclass(frozen=True)
 class TimedCheck(_OfProtocol):
     """Rehearse a protocol and judge it, by the clock."""
 
-    def perform(self) -> Timed:
+    def perform(self) -> TimedReport:
         """Judge."""
+        from ..preflight import Interpretation, judge, record
+
         start = time.perf_counter()
         with standing_in_place(self.script) as modules:
             recording = record(self.script, timeout_s=self.timeout_s)
         recorded = time.perf_counter()
-        report = judge(Reading(recording, _database(self.rules), self.options))
+        reading = Interpretation(recording, _rule_set(self.rules), self.options)
+        report = judge(reading)
         seconds = time.perf_counter() - recorded
-        return Timed(report, recorded - start, seconds, tuple(modules))
+        played = _played(reading, report) if self.playback else None
+        return TimedReport(report, recorded - start, seconds, tuple(modules), played)
 
 
 @dataclass(frozen=True)
@@ -109,6 +114,7 @@ class Examined:
     dossier: Dossier
     recording: Recording
     modules: tuple[str, ...] = ()
+    playback: Mapping[str, Any] | None = None
 
 
 @dataclass(frozen=True)
@@ -117,30 +123,45 @@ class CheckWithDossier(_OfProtocol):
 
     def perform(self) -> Examined:
         """Judge."""
+        from ..preflight.opinion import check_with_dossier
+
         with standing_in_place(self.script) as modules:
             report, dossier, reading = check_with_dossier(
-                self.script, _database(self.rules), self.options, self.timeout_s
+                self.script, _rule_set(self.rules), self.options, self.timeout_s
             )
-        return Examined(report, dossier, reading.recording, tuple(modules))
+        played = _played(reading, report) if self.playback else None
+        return Examined(report, dossier, reading.recording, tuple(modules), played)
 
 
 @dataclass(frozen=True)
-class Describe:
+class Describe(OfScript):
     """List the runtime parameters that a protocol declares."""
 
     script: Script
     timeout_s: float
 
-    @property
-    def file_name(self) -> str:
-        """The protocol's."""
-        return self.script.file_name
-
     def perform(self) -> tuple[Parameter, ...]:
         """Run ``add_parameters`` and read what it declared."""
+        from ..preflight.rehearsal import declared_parameters, interrupted_after, load
+
         limit = functools.partial(interrupted_after, self.timeout_s, self.script.file_name)
         with standing_in_place(self.script):
             return declared_parameters(load(self.script), self.script, limit)
+
+
+@dataclass(frozen=True)
+class RecordTask(OfScript):
+    """Rehearse a protocol, and judge nothing."""
+
+    script: Script
+    timeout_s: float
+
+    def perform(self) -> Recording:
+        """Rehearse."""
+        from ..preflight.rehearsal import record
+
+        with standing_in_place(self.script):
+            return record(self.script, timeout_s=self.timeout_s)
 
 
 @dataclass(frozen=True)
@@ -154,13 +175,22 @@ class RunExamples:
 
     def perform(self) -> list[ExampleResult]:
         """Run them."""
+        from ..preflight.rehearsal import interrupted_after
+        from .rule_examples import run_examples
+
         with interrupted_after(self.timeout_s, self.file_name):
-            return run_examples(_database(self.rules), [self.rule])
+            return run_examples(_rule_set(self.rules), [self.rule])
+
+
+def _played(reading: Interpretation, report: Report) -> Mapping[str, Any]:
+    from .playback import playback_of
+
+    return playback_of(reading, report)
 
 
 @functools.cache
-def _database(rules: RulePaths) -> Database:
-    return load_database(rules)
+def _rule_set(rules: RulePaths) -> RuleSet:
+    return load_rules(rules)
 
 
 def prepare(rules: RulePaths) -> None:
@@ -172,5 +202,7 @@ def prepare(rules: RulePaths) -> None:
     import opentrons.protocols.execution.execute_python
     import opentrons.protocols.parse  # noqa: F401
 
+    from ..preflight import check_script, judge, opinion, record  # noqa: F401
+
     with contextlib.suppress(AegisError):  # told by the first task that needs it
-        _database(rules)
+        _rule_set(rules)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 import sys
+import warnings
 from typing import Any
 
 import typer
@@ -22,7 +23,9 @@ class _Commands(TyperGroup):
     def __init__(self, **settings: Any) -> None:
         super().__init__(**settings)
         for name, command in COMMANDS.items():
-            self.add_command(TyperCommand(name, help=command.summary, callback=None))
+            self.add_command(
+                TyperCommand(name, help=command.summary, rich_help_panel=command.group)
+            )
 
     def resolve_command(self, ctx: Any, args: Any) -> Any:
         name, command, rest = super().resolve_command(ctx, args)
@@ -68,8 +71,15 @@ def _root(
 _UsageError: Any = next(k for k in typer.BadParameter.__mro__ if k.__name__ == "ClickException")
 
 
+def _quiet_libraries() -> None:
+    """What a library has to say of another library's code is nothing to a user."""
+    if not sys.warnoptions:  # a developer has asked for warnings
+        warnings.filterwarnings("ignore", r"The '\w+' attribute with value .* `Field\(\)` function")
+
+
 def run() -> None:
     """Run the app; an error raised on purpose becomes one message and exit code 2."""
+    _quiet_libraries()
     # A workstation has no robot's calibration files; Opentrons warns of that at every context.
     logging.getLogger("opentrons").setLevel(logging.ERROR)
     try:

@@ -86,7 +86,7 @@ def audit(
     from ..reports.audit_html import audit_html
     from ..sidecar.overview import run_overview
     from ..vision.detection import load_detector
-    from .progress import Shown
+    from .progress import StageBar
 
     gate = _gate(model, record, budget, calls)
     detector, scorer = load_detector(tip_finder(boxes)), load_world_model(world_model)
@@ -95,7 +95,7 @@ def audit(
     if not (store.run(name) or {}).get("finished"):
         raise ConfigurationError(f"Run {name} has not ended yet; it is audited when it has.")
     seen, views = _pictured(store, name, plate, plate_slot, plate_wells, a1 or ())
-    with Shown() as shown:
+    with StageBar() as shown:
         found = audit_run(store, name, detector, scorer, gate, shown)
     kept = (store.audit(name) or {}).get("plate")
     found = replace(found, plate=kept if seen is None else seen.to_json())

@@ -3,24 +3,27 @@
 from __future__ import annotations
 
 import dataclasses
+import json
 import os
+import shutil
 import sys
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
 from ..checking import Asking, CheckRun, Configuration, Project, check_projects, configurations_of
 from ..checking.baseline import baseline_text, read_baseline
-from ..checking.roles_template import roles_template
+from ..checking.call_settings import settings_of
 from ..checking.shelf import protocols_named
 from ..checking.side_by_side import processors
 from ..errors import ConfigurationError
 from ..reports import FORMATS, SHOW_ROLES, renderer
 from ..reports.check_text import check_text
+from ..reports.wrapping import wrapped
 from ..vocabulary import VerdictWord, counted
-from .check_settings import settings_of
 from .counting import Counting
+from .engines import InstallEngines, install_for_files
 from .exit_codes import BROKEN, CLEAN
 from .models import ModelName, RecordFolder, backend_of
 from .options import (
@@ -35,7 +38,7 @@ from .options import (
     Strict,
     Timeout,
     one_of,
-    spared,
+    refuse_to_overwrite,
 )
 from .paths import write_text
 
@@ -44,7 +47,8 @@ app = typer.Typer()
 
 @app.command()
 def check(
-    files: FilesOrFolders,
+    context: typer.Context,
+    files: FilesOrFolders = None,
     output_format: Annotated[
         str, typer.Option("--format", "-f", help=f"One of {', '.join(FORMATS)}.")
     ] = "text",
@@ -88,12 +92,32 @@ def check(
             help="Protocols to check at a time (one per processor if left out).",
         ),
     ] = None,
+    mend: Annotated[
+        bool,
+        typer.Option("--fix", help="Mend what is sure, judge again, and write what holds."),
+    ] = False,
+    watch: Annotated[
+        bool, typer.Option("--watch", help="Check again whenever a file changes, until Ctrl-C.")
+    ] = False,
     model: ModelName = None,
     record: RecordFolder = None,
+    install_engines: InstallEngines = False,
+    robot: Annotated[
+        str | None,
+        typer.Option(
+            help="The robot that the protocols are for: an engine of its version is taken."
+        ),
+    ] = None,
+    run_id: Annotated[
+        str | None,
+        typer.Option("--run", help="Judge what this run on --robot really did; current: its last."),
+    ] = None,
 ) -> None:
     """Check protocols before they run: rehearse them, and judge them by the rules.
 
-    Of a folder every protocol below it is checked; hidden folders and installed packages are
+    Beside Python protocols it takes Protocol Designer's files (schema 6 and newer) and analyses
+    (opentrons analyze --json-output); findings there cite commands, and steps where the file tells
+    them. Of a folder every protocol below it is checked; hidden folders and installed packages are
     passed over. A model, where one is named, adds to what the rules decide, and never takes from
     it.
 
@@ -101,6 +125,11 @@ def check(
     gave no answer, or the call is wrong.
     """
     one_of("--format", output_format, FORMATS)
+    if watch and files:
+        from .watching import watch as keep_checking
+
+        once: Any = context.command.callback
+        keep_checking(files, lambda: once(**{**context.params, "watch": False}))
     if baseline and write_baseline:
         raise ConfigurationError("--baseline and --write-baseline cannot be given together.")
     if write_baseline and output:
@@ -108,12 +137,15 @@ def check(
             "--output and --write-baseline cannot be given together: a baseline is all that is "
             "written then."
         )
+    version, files = _of_robot(robot, run_id, files or [])
     files = protocols_named(files)
     if roles_file and len(files) > 1:
         raise ConfigurationError("--roles-template takes one protocol at a time.")
+    if install_engines:
+        install_for_files(files)
     projects = []
     for configured, own in configurations_of(files, Path.cwd()):
-        judging, database = settings_of(
+        judging, rule_set = settings_of(
             configured,
             assay=assay,
             rules=rules,
@@ -126,21 +158,27 @@ def check(
             timeout=timeout,
         )
         inputs = [*files, *judging.csv_parameters.values(), *(rules or ()), *(labware or ())]
-        spared("--write-baseline", write_baseline, inputs)
-        spared("--roles-template", roles_file, inputs)
+        refuse_to_overwrite("--write-baseline", write_baseline, inputs)
+        refuse_to_overwrite("--roles-template", roles_file, inputs)
         known = baseline or (Path(configured.baseline) if configured.baseline else None)
-        spared("--output", output, [*inputs, *([known] if known else ())])
+        refuse_to_overwrite("--output", output, [*inputs, *([known] if known else ())])
         settings = dataclasses.replace(
             judging,
             all_parameters=all_parameters,
             explain_roles=explain_roles,
+            playback=output_format == "html",
             asking=_asking(model, record, configured),
             jobs=jobs or processors(),
+            robot_version=version,
             baseline=read_baseline(known) if known and not write_baseline else None,
         )
-        projects.append(Project(own, settings, database))
+        projects.append(Project(own, settings, rule_set))
     with Counting(len(files)) as counting:
         run = check_projects(projects, files, counting.done)
+    if mend:
+        from .fixes import fix_all
+
+        run = fix_all(run, projects)
     if write_baseline:
         write_text(write_baseline, baseline_text(write_baseline, run.protocols))
         count = sum(len(checked.findings) for checked in run.protocols)
@@ -153,9 +191,36 @@ def check(
         raise typer.Exit(BROKEN)
     _show(run, output_format, output)
     if roles_file:
-        write_text(roles_file, roles_template(run.protocols[0], projects[0].database))
+        from ..checking.roles_template import roles_template
+
+        write_text(roles_file, roles_template(run.protocols[0], projects[0].rule_set))
         typer.echo(f"{roles_file}: the roles, to be completed and pasted.", err=True)
     raise typer.Exit(run.exit_code)
+
+
+def _of_robot(robot: str | None, run_id: str | None, files: list[Path]) -> tuple[str, list[Path]]:
+    """The robot's version, and what is to be judged: the files, or the run written into one."""
+    if run_id and (files or not robot):
+        raise ConfigurationError("--run goes with --robot, and without files.")
+    if not (files or run_id):
+        raise ConfigurationError("Name protocols, folders, or a run: --robot HOST --run ID.")
+    if robot is None:
+        return "", files
+    from ..robot import RobotClient
+    from ..robot.recorded import recorded_run
+
+    with RobotClient(robot) as client:
+        version = str(client.health().get("api_version") or "")
+        if run_id is None:
+            return version, files
+        known = client.current_run() if run_id == "current" else run_id
+        if known is None:
+            raise ConfigurationError(f"There is no run on {client.url}.")
+        document = recorded_run(client, known)
+    path = Path(f"run-{''.join(c for c in known if c.isalnum() or c in '-_')}.json")
+    write_text(path, json.dumps(document))
+    typer.echo(f"{path}: what the run did, as the robot tells it.", err=True)
+    return version, [path]
 
 
 def _asking(model: str | None, record: Path | None, configured: Configuration) -> Asking | None:
@@ -173,6 +238,8 @@ def _show(run: CheckRun, output_format: str, output: Path | None) -> None:
         return
     if output_format == "text":
         text = check_text(run, colour=_colours())
+        if sys.stdout.isatty():
+            text = wrapped(text, shutil.get_terminal_size().columns)
     else:
         text = renderer(output_format)(run)
     # Bytes: a Windows console's own encoding may lack the µ of a message. A protocol's text may

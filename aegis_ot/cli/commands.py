@@ -25,7 +25,7 @@ _LAB = ""
 
 
 @dataclass(frozen=True)
-class Command:
+class CommandEntry:
     """One command of the first level.
 
     Attributes:
@@ -38,87 +38,130 @@ class Command:
     extra: str
     module: str = _LAB
 
+    @property
+    def group(self) -> str:
+        """The heading under which help shows it."""
+        return _GROUPS.get(self.module, "Measure and make (laboratory)")
+
+
+_GROUPS = {
+    **dict.fromkeys(("checks", "corpora", "engines", "rulebook", "editors"), "Before a run"),
+    **dict.fromkeys(("demo", "dryruns"), "Without a robot"),
+    **dict.fromkeys(("robots", "onto_robot", "qualifications", "fleets"), "On robots"),
+    **dict.fromkeys(("sidecars", "services", "aiming"), "The sidecar"),
+    **dict.fromkeys(("audits", "inspections", "rests", "runs", "worldmodels"), "After a run"),
+}
+"""Headings of help, by the module that owns a command."""
+
 
 COMMANDS = {
-    "check": Command(
+    "check": CommandEntry(
         "Check protocols before they run: rehearse them, and judge them by the rules.",
         "check",
         "checks",
     ),
-    "audit": Command(
+    "corpus": CommandEntry(
+        "Judge every protocol below some folders, and keep what came of each in a table.",
+        "check",
+        "corpora",
+    ),
+    "engines": CommandEntry(
+        "The releases of opentrons that protocols are rehearsed with.", "check", "engines"
+    ),
+    "demo": CommandEntry(
+        "Show a protocol rejected, a run watched, and a run paused at the failed well.",
+        "sidecar",
+        "demo",
+    ),
+    "simulate": CommandEntry(
+        "Run a protocol with both layers on this machine: no robot, no camera, no key.",
+        "sidecar",
+        "dryruns",
+    ),
+    "aim": CommandEntry(
+        "Say how well a run's camera is known, which tips it sees whole, and when it was moved.",
+        "sidecar",
+        "aiming",
+    ),
+    "run": CommandEntry(
+        "Run a protocol on a robot: upload, analysis, Layer 1, start, verdicts, report.",
+        "sidecar",
+        "robots",
+    ),
+    "watch": CommandEntry(
+        "Watch the run on a robot whose protocol carries no guard; waits until one begins.",
+        "sidecar",
+        "robots",
+    ),
+    "qualify": CommandEntry(
+        "Let the robot fail on purpose, and count what its camera catches.",
+        "sidecar",
+        "qualifications",
+    ),
+    "install": CommandEntry(
+        "Install the guard on an OT-2 or Flex over ssh, and try it there.", "sidecar", "onto_robot"
+    ),
+    "wrap": CommandEntry(
+        "Write a protocol with the guard inside, for a robot on which nothing may be installed.",
+        "sidecar",
+        "onto_robot",
+    ),
+    "reproduce": CommandEntry(
+        "Measure every table and figure of the paper again, and show ours beside the paper's.",
+        "lab",
+    ),
+    "lsp": CommandEntry(
+        "Serve an editor: findings as you type, and quick fixes (Language Server Protocol, stdio).",
+        "editor",
+        "editors",
+    ),
+    "mcp": CommandEntry(
+        "Serve an agent: check, explain, simulate, runs (Model Context Protocol, stdio).",
+        "check",
+        "editors",
+    ),
+    "explain": CommandEntry(
+        "Say what a rule demands, why, how to mend a violation, and show examples.",
+        "check",
+        "rulebook",
+    ),
+    "doctor": CommandEntry(
+        "Look at camera, light, detector, disk, store, token, models, clock and robot.",
+        "sidecar",
+        "services",
+    ),
+    "sidecar": CommandEntry(
+        "Watch the robot's tips: capture, score, judge, and show a page.", "sidecar", "sidecars"
+    ),
+    "audit": CommandEntry(
         "Read every well of a finished run again with all that the run tells, and rank what "
         "passed.",
         "sidecar",
         "audits",
     ),
-    "corpus": Command(
-        "Judge every protocol below some folders, and keep what came of each in a table.",
-        "check",
-        "corpora",
-    ),
-    "demo": Command(
-        "Show a protocol rejected, a run watched, and a run paused at the failed well.",
-        "sidecar",
-        "demo",
-    ),
-    "simulate": Command(
-        "Run a protocol with both layers on this machine: no robot, no camera, no key.",
-        "sidecar",
-        "dryruns",
-    ),
-    "inspect": Command(
+    "inspect": CommandEntry(
         "Write a page that shows frames, boxes, columns, scores and routes, well by well.",
         "sidecar",
         "inspections",
     ),
-    "run": Command(
-        "Run a protocol on a robot: upload, analysis, Layer 1, start, verdicts, report.",
-        "sidecar",
-        "robots",
-    ),
-    "watch": Command(
-        "Watch the run on a robot whose protocol carries no guard; waits until one begins.",
-        "sidecar",
-        "robots",
-    ),
-    "install": Command(
-        "Install the guard on an OT-2 or Flex over ssh, and try it there.", "sidecar", "onto_robot"
-    ),
-    "wrap": Command(
-        "Write a protocol with the guard inside, for a robot on which nothing may be installed.",
-        "sidecar",
-        "onto_robot",
-    ),
-    "reproduce": Command(
-        "Measure every table and figure of the paper again, and show ours beside the paper's.",
-        "lab",
-    ),
-    "explain": Command(
-        "Say what a rule demands, why, how to mend a violation, and show examples.",
-        "check",
-        "rulebook",
-    ),
-    "doctor": Command(
-        "Look at camera, light, detector, disk, store, token, models, clock and robot.",
-        "sidecar",
-        "services",
-    ),
-    "sidecar": Command(
-        "Watch the robot's tips: capture, score, judge, and show a page.", "sidecar", "sidecars"
-    ),
-    "fit": Command(
+    "fit": CommandEntry(
         "Build the world model of a lab from its recorded normal runs.", "sidecar", "worldmodels"
     ),
-    "world-model": Command(
+    "world-model": CommandEntry(
         "Verify a world model, and say what it was made from.", "sidecar", "worldmodels"
     ),
-    "dataset": Command("Make trajectory data sets.", "lab"),
-    "runs": Command("What a sidecar has kept: list, show, export, remove.", "sidecar", "runs"),
-    "evaluate": Command("Score a layer on labelled data.", "lab"),
-    "fleet": Command("Many robots: one agent each.", "fleet", "fleets"),
-    "llm": Command("Export requests to a model, and import answers got elsewhere.", "lab"),
-    "rules": Command("The rule database: list, test, document.", "check", "rulebook"),
-    "train": Command("Train the tip detector.", "train"),
+    "dataset": CommandEntry("Make trajectory data sets.", "lab"),
+    "rest": CommandEntry(
+        "Say what a stopped run left, and write the protocol that finishes it.", "sidecar", "rests"
+    ),
+    "runs": CommandEntry(
+        "What a sidecar has kept: list, show, export, verify, trends, remove.", "sidecar", "runs"
+    ),
+    "evaluate": CommandEntry("Score a layer on labelled data.", "lab"),
+    "fleet": CommandEntry("Many robots: one agent each.", "fleet", "fleets"),
+    "llm": CommandEntry("Export requests to a model, and import answers got elsewhere.", "lab"),
+    "rules": CommandEntry("The rule database: list, test, document.", "check", "rulebook"),
+    "train": CommandEntry("Train the tip detector.", "train"),
 }
 """In the order in which help shows them."""
 

@@ -10,23 +10,17 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
-from rich.progress import (
-    BarColumn,
-    MofNCompleteColumn,
-    Progress,
-    TextColumn,
-    TimeElapsedColumn,
-    TimeRemainingColumn,
-)
+from rich.progress import TimeRemainingColumn
 
 from ..checking import Project, configurations_of
 from ..checking.baseline import read_baseline
+from ..checking.call_settings import settings_of
 from ..checking.corpus import check_corpus
-from ..checking.corpus_changes import Change, changes
+from ..checking.corpus_changes import VerdictChange, changes
 from ..checking.corpus_table import (
     CRASHED,
+    CorpusRow,
     Results,
-    Row,
     Told,
     findings_path,
     read_results,
@@ -38,11 +32,12 @@ from ..checking.shelf import sample as drawn
 from ..checking.side_by_side import processors
 from ..errors import ConfigurationError
 from ..vocabulary import counted
-from .check_settings import settings_of
+from .engines import InstallEngines, install_for_files
 from .exit_codes import BROKEN, CLEAN, FINDINGS
 from .options import Labware, Rules, Timeout, one_of
 from .plain_text import echo
 from .printing import PlainConsole
+from .progress import progress_bar
 
 _FAILING = {"error": {"fail"}, "warning": {"fail", "warn"}, "never": set[str]()}
 """Verdicts that end with exit code 1, by ``--fail-on``."""
@@ -81,6 +76,7 @@ def corpus(
         str,
         typer.Option("--fail-on", help="error, warning or never: what ends with exit code 1."),
     ] = "never",
+    install_engines: InstallEngines = False,
 ) -> None:
     """Judge every protocol below some folders, and keep what came of each in a table.
 
@@ -98,8 +94,10 @@ def corpus(
         raise ConfigurationError("There is no protocol below these folders.")
     if sample is not None:
         protocols = drawn(protocols, folders, sample)
+    if install_engines:
+        install_for_files([shelved.path for shelved in protocols])
     projects = list(_projects(protocols, folders, rules, labware, timeout))
-    with _Shown(len(protocols)) as shown:
+    with _CorpusProgress(len(protocols)) as shown:
         after = check_corpus(protocols, folders, out, projects, jobs or processors(), shown.done)
     rows = [row for row, _ in after.values()]
     write_summary(out, rows)
@@ -122,7 +120,7 @@ def _projects(
 ) -> Iterator[Project]:
     """The protocols by how their projects want them judged; a faulty file is told before any is."""
     for configured, own in configurations_of([one.path for one in protocols], Path.cwd()):
-        settings, database = settings_of(
+        settings, rule_set = settings_of(
             configured,
             assay=None,
             rules=rules,
@@ -139,10 +137,10 @@ def _projects(
             shelves=tuple(folders),
             definitions=lambda _: (),  # found with the protocols
         )
-        yield Project(own, settings, database)
+        yield Project(own, settings, rule_set)
 
 
-def _exit_code(rows: Sequence[Row], fail_on: str) -> int:
+def _exit_code(rows: Sequence[CorpusRow], fail_on: str) -> int:
     verdicts = {row.verdict for row in rows}
     if fail_on == "never":
         return CLEAN
@@ -157,31 +155,23 @@ def _there(path: Path) -> Path:
     return path
 
 
-class _Shown:
+class _CorpusProgress:
     """Progress on stderr: a bar with counts, and a line for each protocol that fails."""
 
     def __init__(self, total: int) -> None:
         console = PlainConsole(stderr=True, highlight=False, soft_wrap=True)
         self._counts: Counter[str] = Counter()
-        self._bar = Progress(
-            TextColumn("{task.description}", markup=False),
-            BarColumn(),
-            MofNCompleteColumn(),
-            TimeElapsedColumn(),
-            TimeRemainingColumn(),
-            console=console,
-            transient=True,
-        )
+        self._bar = progress_bar(console, TimeRemainingColumn())
         self._task = self._bar.add_task("", total=total)
 
-    def __enter__(self) -> _Shown:
+    def __enter__(self) -> _CorpusProgress:
         self._bar.start()
         return self
 
     def __exit__(self, *_: object) -> None:
         self._bar.stop()
 
-    def done(self, row: Row, kept: bool) -> None:
+    def done(self, row: CorpusRow, kept: bool) -> None:
         """Count a row; ``kept``: it stood in the table already."""
         self._counts["kept" if kept else row.verdict] += 1
         self._bar.update(self._task, description=_numbers(self._counts), advance=1)
@@ -190,7 +180,7 @@ class _Shown:
             self._bar.console.print(line, markup=False)
 
 
-def summary(rows: Sequence[Row]) -> str:
+def summary(rows: Sequence[CorpusRow]) -> str:
     """Verdicts, broken rules, reasons and times of a corpus, in a few lines."""
     counts = Counter(row.verdict for row in rows)
     judged = [row for row in rows if row.verdict in ("pass", "warn", "fail")]
@@ -221,7 +211,9 @@ def _times(what: str, seconds: Sequence[float]) -> str:
     return f"{what}: median {middle:.3f} s, 95th percentile {late:.3f} s, sum {sum(ordered):.0f} s."
 
 
-def _compared(before: Results, after: Results, changed: Sequence[Change], against: Path) -> str:
+def _compared(
+    before: Results, after: Results, changed: Sequence[VerdictChange], against: Path
+) -> str:
     both = len(before.keys() & after.keys())
     lines = [f"Against {against}: {len(changed)} of {both} protocols changed."]
     if new := [file for file in after if file not in before]:
@@ -236,7 +228,7 @@ def _compared(before: Results, after: Results, changed: Sequence[Change], agains
     return "\n".join(lines)
 
 
-def _headline(change: Change) -> str:
+def _headline(change: VerdictChange) -> str:
     before, after = change.before, change.after
     parts = [after.verdict]
     if before.verdict != after.verdict:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import sys
-from types import TracebackType
 from typing import Any
 
 _WIDTH = 60
@@ -25,10 +24,7 @@ class Counting:
         self._say(f"0/{self._total}")
         return self
 
-    def __exit__(
-        self, _kind: type[BaseException] | None, _error: BaseException | None,
-        _trace: TracebackType | None,
-    ) -> None:  # fmt: skip
+    def __exit__(self, *_: object) -> None:
         self._say("", "\r")
 
     def done(self, one: Any) -> None:

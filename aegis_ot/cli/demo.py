@@ -19,6 +19,8 @@ _REJECTED = "pcr_setup_contaminated.py"
 _LONG = "normalisation_plate.py"
 _FAULT = "partial:50@3:D4"
 """Half of the dye stays in the tip at D4 of the plate in slot 3; 16 more wells would follow."""
+_FAULTS = ("no_dispense@3:H1", _FAULT, "no_aspirate@3:B5")
+"""What a person meets on the live page, one after another."""
 
 
 app = typer.Typer()
@@ -27,10 +29,19 @@ app = typer.Typer()
 @app.command()
 def demo(
     out: Annotated[Path, typer.Option(help="Folder for the report.")] = Path("out"),
+    live: Annotated[
+        bool,
+        typer.Option(
+            "--open", help="Open the live page of a run with planted faults; you are the operator."
+        ),
+    ] = False,
 ) -> None:
     """Show a protocol rejected, a run watched, and a run paused at the failed well."""
     from .dryrun_screen import console, write_report
 
+    if live:
+        _run(_LONG, faults=_FAULTS, live=True)
+        return
     console.rule("1. Layer 1 rejects a contaminated PCR set-up")
     rejected = _run(_REJECTED)
     console.rule("2. Layer 2 watches a whole normal run (simulated frames)")
@@ -41,23 +52,36 @@ def demo(
     report = out / "demo-report.html"
     write_report(report, [rejected, watched, paused])
     told = [
-        (rejected.outcome == "rejected", f"{_REJECTED}: rejected before anything moved"),
+        (rejected.outcome == "rejected", f"{_REJECTED}: {_what_happened(rejected)}"),
         (
             watched.outcome == "succeeded" and not watched.flagged,
-            f"{_LONG}: {counted(len(watched.wells), 'well')}, {_passed(watched)} passed, "
-            "no false alarm",
+            f"{_LONG}: {_what_happened(watched)}",
         ),
         (
             paused.outcome == "stopped"
             and [row.well.split()[0] for row in paused.flagged] == ["D4"]
             and not paused.touched_after_failure,
-            f"{_LONG} with {_FAULT}: paused at D4, no further well touched",
+            f"{_LONG} with {_FAULT}: {_what_happened(paused)}",
         ),
     ]
     for as_told, line in told:
         console.print(("  caught  " if as_told else "  MISSED  ") + line, markup=False)
     if not all(as_told for as_told, _ in told):
         raise typer.Exit(BROKEN)
+
+
+def _what_happened(result: DryRun) -> str:
+    """In one line, whatever it was."""
+    if result.outcome == "rejected":
+        return "rejected before anything moved"
+    flagged = [row.well.split()[0] for row in result.flagged]
+    if result.outcome == "stopped":
+        touched = ", ".join(result.touched_after_failure)
+        after = f"then touched {touched}" if touched else "no further well touched"
+        return f"paused at {', '.join(flagged) or 'no failed well'}, {after}"
+    found = f"{', '.join(flagged)} flagged" if flagged else "no false alarm"
+    ended = "" if result.outcome == "succeeded" else f"; the run {result.outcome}: {result.detail}"
+    return f"{counted(len(result.wells), 'well')}, {_passed(result)} passed, {found}{ended}"
 
 
 def _passed(result: DryRun) -> int:

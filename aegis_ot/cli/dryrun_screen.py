@@ -2,48 +2,52 @@
 
 from __future__ import annotations
 
+import contextlib
+import threading
+import webbrowser
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from rich.progress import BarColumn, MofNCompleteColumn, TextColumn, TimeElapsedColumn
 from rich.progress import Progress as Bar
 from rich.table import Table
 from rich.text import Text
 
-from ..dryrun import DryRun, DryRunSettings, Progress, WellRow, dry_run
+from ..checking.playback import playback_of
+from ..dryrun import DryRun, DryRunProgress, DryRunSettings, WellRow, dry_run
+from ..preflight import Interpretation, load_rules
 from ..preflight.check_protocol import summary
+from ..preflight.source import source_lines
+from ..reports.played import Mark, mark_of, played
 from ..reports.run_html import run_report_html
 from ..sidecar import Judged, make_analyser
-from ..vocabulary import Outcome, counted
+from ..vocabulary import Outcome, Site, counted
 from .exit_codes import BROKEN, CLEAN, FINDINGS
 from .printing import PlainConsole
+from .progress import progress_bar
 
 console = PlainConsole(highlight=False)
 
 _WIDE = 100
 """What the table of wells needs at most, columns."""
 
+_MANY = 24
+"""So many wells have a line each."""
+
 _COLOURS = {Outcome.PASS: "green", Outcome.FAIL: "bold red", Outcome.UNDECIDED: "yellow"}
 
 
 def run_and_show(script: Any, settings: DryRunSettings) -> DryRun:
     """Run with a progress bar and print the table of wells."""
-    with Bar(
-        TextColumn("{task.description}"),
-        BarColumn(),
-        MofNCompleteColumn(),
-        TimeElapsedColumn(),
-        console=console,
-        transient=True,
-    ) as bar:
+    with progress_bar(console) as bar:
         analyser = make_analyser(settings.cascade)
-        result = dry_run(script, settings, analyser, _Shown(bar, script.file_name))
+        result = dry_run(script, settings, analyser, _CheckProgress(bar, script.file_name))
     show(result)
     return result
 
 
-class _Shown(Progress):
+class _CheckProgress(DryRunProgress):
     def __init__(self, bar: Bar, name: str) -> None:
         self._bar = bar
         self._task = bar.add_task(f"Layer 1 checks {name}", total=None)
@@ -57,6 +61,16 @@ class _Shown(Progress):
     def judged(self, judged: Judged) -> None:
         self._bar.advance(self._task)
 
+    def serves(self, address: str) -> None:
+        console.print(f"Live page: {address}", markup=False, soft_wrap=True)
+        webbrowser.open(address)
+
+    def ended(self) -> None:
+        self._bar.stop()
+        console.print("The run is over; its page stays open until you press Ctrl-C.")
+        with contextlib.suppress(KeyboardInterrupt):
+            threading.Event().wait()
+
 
 def show(result: DryRun) -> None:
     """Print a finished dry run."""
@@ -69,7 +83,7 @@ def show(result: DryRun) -> None:
     if result.wells:
         # Cells of a squeezed table say nothing: a narrow terminal wraps its lines instead.
         width = _WIDE if console.width < _WIDE else None
-        console.print(_table(result.wells, width), crop=False)
+        console.print(_table(_worth_a_line(result), width), crop=False)
     else:
         console.print("It delivers no liquid: there is nothing to watch.", style="yellow")
     passed = sum(row.passed for row in result.wells)
@@ -98,6 +112,13 @@ def show(result: DryRun) -> None:
         console.print(result.detail, style="red", markup=False)
     for note in result.notes:
         console.print(Text(note, style="yellow"))
+
+
+def _worth_a_line(result: DryRun) -> Sequence[WellRow]:
+    """All wells of a short run; of a long one those that did not simply pass, and its first."""
+    if len(result.wells) <= _MANY:
+        return result.wells
+    return [row for row in result.wells if not row.passed or row is result.wells[0]]
 
 
 def _table(rows: Sequence[WellRow], width: int | None = None) -> Table:
@@ -137,9 +158,29 @@ def _table(rows: Sequence[WellRow], width: int | None = None) -> Table:
 def write_report(path: Path, results: Sequence[DryRun]) -> None:
     """Write the HTML report, making its folder."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    page = run_report_html([result.reported for result in results], "aegis_ot, simulated")
+    reported = [replace(one.reported, played=_played(one)) for one in results]
+    page = run_report_html(reported, "aegis_ot, simulated")
     path.write_text(page, encoding="utf-8")
     console.print(f"Report: {path}", markup=False, soft_wrap=True)
+
+
+def _played(result: DryRun) -> dict[str, Any] | None:
+    """Its rehearsal, with what Layer 1 found, and the wells that Layer 2 flagged."""
+    if result.recording is None:
+        return None
+    reading = Interpretation(result.recording, load_rules())
+    flagged = [
+        Mark(
+            "Layer 2",
+            "error" if row.outcome is Outcome.FAIL else "warning",
+            f"{row.address}: {row.reason or 'no verdict'}",
+            [Site(row.line, ref) for ref in row.refs],
+        )
+        for row in result.flagged
+    ]
+    found = [mark_of(one) for one in result.report.findings] if result.report else []
+    lines = source_lines(result.recording.text)
+    return played(playback_of(reading, result.report), [*found, *flagged], lines, "line")
 
 
 def exit_code(result: DryRun) -> int:

@@ -8,8 +8,9 @@ from typing import Annotated
 
 import typer
 
+from ..checking.given import seconds_of
 from ..settings import load_settings
-from .options import Timeout, one_of, seconds_of
+from .options import Timeout, one_of
 
 app = typer.Typer()
 
@@ -50,6 +51,14 @@ def simulate(
         list[str] | None, typer.Option(help="Runtime parameter as NAME=VALUE.")
     ] = None,
     timeout: Timeout = None,
+    live: Annotated[
+        bool,
+        typer.Option(
+            "--open",
+            help="Open the live page, at a robot's pace. After a failure it waits for your answer "
+            "there.",
+        ),
+    ] = False,
     report: Annotated[Path | None, typer.Option(help="Write an HTML report here.")] = None,
     data: Annotated[
         Path | None,
@@ -70,6 +79,7 @@ def simulate(
         rules=one_of("--rules", rules, ("on", "warn", "off")),
         timeout_s=seconds_of(timeout),
         data=data,
+        live=live,
         cascade=CascadeSettings() if asks else TRUSTING,
     )
     script = read_script(protocol, labware or (), parameter or ())

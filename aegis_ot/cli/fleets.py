@@ -24,7 +24,7 @@ from .printing import PlainConsole
 
 if TYPE_CHECKING:
     from ..fleet import FleetConfig, FleetReport, Job
-    from ..fleet.report import Entry
+    from ..fleet.report import FleetEntry
 
 app = typer.Typer()
 fleet = typer.Typer(help="Many robots: one agent each.", no_args_is_help=True)
@@ -64,7 +64,7 @@ def run(
     if not yes and not sys.stdin.isatty() and any(not robot.simulated for robot in config.robot):
         raise ConfigurationError("Nobody can be asked whether decks are in place. Add --yes.")
     jobs = _read(protocols, labware or (), parameter or ())
-    with _Shown([robot.name for robot in config.robot], yes) as screen:
+    with _FleetLines([robot.name for robot in config.robot], yes) as screen:
         result = asyncio.run(_interruptible(run_fleet(config, jobs, screen)))
     if report is not None:
         _write(report, result)
@@ -163,7 +163,7 @@ async def _interruptible(run: Coroutine[Any, Any, FleetReport]) -> FleetReport:
     return await task
 
 
-class _Shown:
+class _FleetLines:
     """A :class:`aegis_ot.fleet.FleetScreen`: a line a robot, rewritten, and what is over above."""
 
     def __init__(self, names: Sequence[str], yes: bool) -> None:
@@ -199,7 +199,7 @@ class _Shown:
         self._rows[robot] = status
         self._live.update(self._table())
 
-    def ended(self, entry: Entry) -> None:
+    def ended(self, entry: FleetEntry) -> None:
         flagged = f", {counted(len(entry.flagged), 'well')} flagged" if entry.flagged else ""
         where = f" on {entry.robot}" if entry.robot else ""
         _say(

@@ -53,9 +53,9 @@ def inspect_wells(
     Exit codes: 0 written, 2 there is nothing to show, or it cannot be read.
     """
     from ..inspection import inspection_html
-    from .progress import Shown
+    from .progress import StageBar
 
-    with Shown() as shown:
+    with StageBar() as shown:
         folder = Path(what)
         if folder.exists() and not _is_store(folder):
             inspection = _dataset(folder, scorer, world_model, boxes, most, shown)

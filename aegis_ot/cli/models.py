@@ -2,24 +2,17 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from ..errors import ConfigurationError
-from ..reasoning import (
-    MODEL_FORMS,
-    Backend,
-    Configuration,
-    make_backend,
-    model_from_environment,
-    project_model,
-    record_from_environment,
-)
+from ..vocabulary.opinions import MODEL_FORMS
 
-ASKING = tuple(c.value for c in Configuration if c is not Configuration.RULES_ONLY)
-"""Configurations that ask a model."""
+if TYPE_CHECKING:
+    from ..reasoning import Backend
 
 ModelName = Annotated[
     str | None,
@@ -54,6 +47,15 @@ def backend_of(
     Raises:
         ConfigurationError: Its name makes no sense, or there is nothing to record.
     """
+    if not (model or record or configured or os.environ.get("AEGIS_OT_MODEL")):
+        return None
+    from ..reasoning import (
+        make_backend,
+        model_from_environment,
+        project_model,
+        record_from_environment,
+    )
+
     name = model or model_from_environment()
     if name is None and configured is not None:
         name = project_model(configured, folder or Path())

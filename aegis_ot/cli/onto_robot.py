@@ -7,6 +7,7 @@ from typing import Annotated, Any
 
 import typer
 
+from ..checking.files import NO_GUARD
 from ..errors import ConfigurationError, ProtocolRejected
 from .exit_codes import FINDINGS
 from .robots import Robot
@@ -81,6 +82,8 @@ def wrap(
     from ..robot.timing import simulation_s
     from ..robot.wrapping import wrap as put_in
 
+    if protocol.suffix.lower() == ".json":
+        raise ConfigurationError(f"{protocol} is a JSON file: {NO_GUARD}")
     try:
         text = protocol.read_text(encoding="utf-8-sig")
     except (OSError, UnicodeDecodeError) as error:

@@ -3,42 +3,57 @@
 from __future__ import annotations
 
 import contextlib
-import difflib
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Collection, Iterable
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
+from ..checking.given import DEFAULT_TIMEOUT_S
 from ..errors import ConfigurationError
 
-if TYPE_CHECKING:
-    from ..preflight import Database
-
-DEFAULT_TIMEOUT_S = 120.0
+_JUDGING = "How to judge"
+_VALUES = "What the protocol gets"
 
 Files = Annotated[list[Path], typer.Argument(help="Python protocols.")]
 FilesOrFolders = Annotated[
-    list[Path], typer.Argument(help="Python protocols, or folders with protocols.")
+    list[Path] | None,
+    typer.Argument(help="Protocols (Python, Protocol Designer), analyses, or folders of them."),
 ]
 Assay = Annotated[
-    list[str] | None, typer.Option("--assay", help="Assay family, if it should not be inferred.")
+    list[str] | None,
+    typer.Option(
+        "--assay", help="Assay family, if it should not be inferred.", rich_help_panel=_JUDGING
+    ),
 ]
 Rules = Annotated[
-    list[Path] | None, typer.Option("--rules", help="File or folder of further rules.")
+    list[Path] | None,
+    typer.Option("--rules", help="File or folder of further rules.", rich_help_panel=_JUDGING),
 ]
-Select = Annotated[list[str] | None, typer.Option("--select", help="Only these rules.")]
-Ignore = Annotated[list[str] | None, typer.Option("--ignore", help="Not these rules.")]
-Strict = Annotated[bool, typer.Option("--strict", help="Warnings are errors.")]
+Select = Annotated[
+    list[str] | None, typer.Option("--select", help="Only these rules.", rich_help_panel=_JUDGING)
+]
+Ignore = Annotated[
+    list[str] | None, typer.Option("--ignore", help="Not these rules.", rich_help_panel=_JUDGING)
+]
+Strict = Annotated[
+    bool, typer.Option("--strict", help="Warnings are errors.", rich_help_panel=_JUDGING)
+]
 Parameters = Annotated[
-    list[str] | None, typer.Option("--parameter", help="Runtime parameter as NAME=VALUE.")
+    list[str] | None,
+    typer.Option("--parameter", help="Runtime parameter as NAME=VALUE.", rich_help_panel=_VALUES),
 ]
 CsvParameters = Annotated[
-    list[str] | None, typer.Option("--csv", help="File of a CSV runtime parameter as NAME=PATH.")
+    list[str] | None,
+    typer.Option(
+        "--csv", help="File of a CSV runtime parameter as NAME=PATH.", rich_help_panel=_VALUES
+    ),
 ]
 Labware = Annotated[
     list[Path] | None,
-    typer.Option("--labware", help="Folder or file with custom labware definitions."),
+    typer.Option(
+        "--labware", help="Folder or file with custom labware definitions.", rich_help_panel=_VALUES
+    ),
 ]
 Timeout = Annotated[
     float | None,
@@ -60,7 +75,7 @@ def one_of(option: str, value: str, accepted: Collection[str]) -> str:
     return value
 
 
-def spared(option: str, written: Path | None, read: Iterable[Path]) -> None:
+def refuse_to_overwrite(option: str, written: Path | None, read: Iterable[Path]) -> None:
     """Refuse to write over what the same call reads.
 
     Raises:
@@ -74,54 +89,3 @@ def spared(option: str, written: Path | None, read: Iterable[Path]) -> None:
                 raise ConfigurationError(
                     f"{option} {written}: the call reads this file; it would be overwritten."
                 )
-
-
-def known_rule(name: str, database: Database, place: str = "") -> str:
-    """A rule's identifier in the spelling of its file, or the nearest ones as a hint.
-
-    Raises:
-        ConfigurationError: There is no such rule.
-    """
-    return known_name(name, [rule.id for rule in database.rules], f"{place}there is no rule")
-
-
-def split(option: str, values: Sequence[str] | None) -> list[str]:
-    """``PCR-1,PCR-2`` and repeated options mean the same.
-
-    Raises:
-        ConfigurationError: The option is given, and names nothing.
-    """
-    names = [part for value in values or () for part in value.split(",") if part.strip()]
-    if values and not names:
-        raise ConfigurationError(f"{option}: names nothing; leave it out, or give it a value.")
-    return names
-
-
-def known_name(name: str, names: Iterable[str], complaint: str) -> str:
-    """A name in its own spelling.
-
-    Raises:
-        ConfigurationError: It is none of them; the nearest ones are a hint.
-    """
-    by_key = {known.casefold(): known for known in names}
-    found = by_key.get(name.strip().casefold())
-    if found is None:
-        near = difflib.get_close_matches(name.strip().casefold(), by_key, n=3, cutoff=0.6)
-        hint = f"did you mean {' or '.join(by_key[key] for key in near)}?" if near else ""
-        raise ConfigurationError(
-            f"{complaint} {name!r}; {hint or 'known are ' + ', '.join(by_key.values()) + '.'}"
-        )
-    return found
-
-
-def seconds_of(given: float | None, configured: float | None = None) -> float:
-    """The longest rehearsal, s.
-
-    Raises:
-        ConfigurationError: It is no length of time.
-    """
-    if given is None:
-        return configured or DEFAULT_TIMEOUT_S
-    if not 0 < given <= 86_400:
-        raise ConfigurationError(f"--timeout: expected seconds greater than 0, found {given:g}.")
-    return given

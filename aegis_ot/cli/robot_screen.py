@@ -7,8 +7,6 @@ from types import FrameType
 from typing import Any
 
 from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, TextColumn, TimeElapsedColumn
-from rich.progress import Progress as Bar
 from rich.text import Text
 
 from ..robot.running import RobotRun
@@ -16,12 +14,17 @@ from ..robot.shapes import Command
 from ..robot.verdicts import WellVerdict
 from ..vocabulary import Outcome, counted
 from .keys import Keys
+from .progress import progress_bar
 
-_WANTED = {"p": "pause", "r": "play", "s": "stop"}
+_WANTED = {"p": "pause", "r": "play", "s": "stop", "t": "retry"}
 _STOPPED = "RunStoppedError"
 """What the server says of a command during which the run was stopped: no news."""
 _STYLES = {Outcome.FAIL: "bold red", Outcome.UNDECIDED: "yellow"}
 HELP = "Keys: p pause, r resume, s stop. Ctrl-C pauses; a second one leaves the run to the App."
+RECOVER = (
+    "Put it right, then press t to try that step again, or r to go on after it; s stops. Or "
+    "recover it in the Opentrons App"
+)
 
 
 class TerminalScreen:
@@ -29,14 +32,7 @@ class TerminalScreen:
 
     def __init__(self, console: Console) -> None:
         self._console = console
-        self._bar = Bar(
-            TextColumn("{task.description}", markup=False),
-            BarColumn(),
-            MofNCompleteColumn(),
-            TimeElapsedColumn(),
-            console=console,
-            transient=True,
-        )
+        self._bar = progress_bar(console)
         self._task = self._bar.add_task("The robot analyses the protocol", total=None)
         self._keys = Keys()
         self._typing: Any = None
@@ -81,11 +77,13 @@ class TerminalScreen:
         """A line of its own."""
         self._print(text)
 
-    def waits(self, text: str) -> None:
+    def waits(self, text: str, recovery: bool = False) -> None:
         """The run waits for a person."""
         self._paused = bool(text)
         if text:
             how = "Press r to resume or s to stop" if self._keys.there else "Decide in the App"
+            if recovery:
+                how = RECOVER if self._keys.there else "Recover it in the Opentrons App"
             self._print(f"Paused: {text} ({how}.)", "bold yellow")
 
     def judged(self, verdict: WellVerdict) -> None:
@@ -138,6 +136,9 @@ def show_end(console: Console, run: RobotRun) -> None:
         console.print(Text(error, style="red"), soft_wrap=True)
     if run.unheard:
         text = f"Verdicts may be missing, and are not counted as passed: {run.unheard}"
+        console.print(Text(text, style="yellow"), soft_wrap=True)
+    if run.not_as_rehearsed:
+        text = "The run was not as rehearsed: Layer 1's pass does not hold for what the robot did."
         console.print(Text(text, style="yellow"), soft_wrap=True)
     words = {"unobserved": "not seen", "recovered": "put right"}
     outcomes = [words.get(known.state, known.state) for known in run.verdicts.values()]

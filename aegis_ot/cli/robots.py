@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import json
+import re
 import sys
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -13,10 +15,12 @@ from rich.text import Text
 
 from ..errors import ConfigurationError, RobotError
 from .exit_codes import BROKEN, CLEAN, FINDINGS, INTERRUPTED
+from .options import CsvParameters, Labware, Parameters
 from .printing import PlainConsole
 
 if TYPE_CHECKING:
     from ..robot import Analysis
+    from ..robot.preparing import Inputs
     from ..robot.running import RobotRun
     from ..robot.verdicts import VerdictReader
 
@@ -44,17 +48,13 @@ def run(
     analyse_only: Annotated[
         bool, typer.Option("--analyse-only", help="Stop after the robot's analysis.")
     ] = False,
-    parameter: Annotated[
-        list[str] | None, typer.Option(help="Runtime parameter as NAME=VALUE.")
-    ] = None,
-    labware: Annotated[
-        list[Path] | None, typer.Option(help="Folder or file with custom labware definitions.")
-    ] = None,
+    parameter: Parameters = None,
+    labware: Labware = None,
+    csv: CsvParameters = None,
     offsets: Annotated[
         str,
         typer.Option(
-            help="known: refuse where the robot knows labware offsets, which this run would not "
-            "have; none: run without them."
+            help="Labware offsets of the run: known (what the robot keeps), none, or a JSON file."
         ),
     ] = "known",
     sidecar: SidecarUrl = None,
@@ -65,32 +65,80 @@ def run(
     report: Annotated[Path | None, typer.Option(help="Write a JSON report here.")] = None,
 ) -> None:
     """Run a protocol on a robot: upload, analysis, Layer 1, start, verdicts, report."""
-    from ..checking.files import labware_files, read_values
-    from ..robot import RobotClient
-    from ..robot.offsets import refuse_lost_offsets
-    from ..robot.running import Inputs, RobotRun, analyse, run_analysed
-    from .options import one_of
-    from .robot_screen import TerminalScreen, show_end
+    from ..checking.files import labware_files, read_csv_paths, read_values
+    from ..robot.preparing import Inputs
 
     if not protocol.is_file():
         raise ConfigurationError(f"There is no protocol {protocol}.")
-    heeds_offsets = one_of("--offsets", offsets, ("known", "none")) == "known"
-    files = labware_files(labware or ())
-    inputs = Inputs(tuple(files), read_values(parameter or ()))
+    values, files = read_values(parameter or ()), read_csv_paths(csv or ())
+    inputs = Inputs(tuple(labware_files(labware or ())), values, files)
+    result = not_yet_run(protocol)
+    run_protocol(
+        result, protocol, robot, inputs, sidecar, token, yes=yes, labware=labware or (),
+        analyse_only=analyse_only, offsets=offsets, analysis_timeout=analysis_timeout,
+        report=report,
+    )  # fmt: skip
+    raise typer.Exit(exit_code(result))
+
+
+def not_yet_run(protocol: Path) -> RobotRun:
+    """For :func:`run_protocol` to fill in."""
+    from ..robot import Analysis
+    from ..robot.running import RobotRun
+
+    return RobotRun(protocol.name, "", "", "", Analysis("", done=False))
+
+
+def run_protocol(
+    result: RobotRun,
+    protocol: Path,
+    robot: str,
+    inputs: Inputs,
+    sidecar: str | None,
+    token: str | None,
+    *,
+    yes: bool = False,
+    labware: Sequence[Path] = (),
+    analyse_only: bool = False,
+    offsets: str = "known",
+    analysis_timeout: float = 900.0,
+    report: Path | None = None,
+) -> None:
+    """From upload to end, as ``aegis-ot run`` has it.
+
+    Args:
+        result: Filled in as far as it comes; without an ``id`` nothing was begun.
+        protocol, robot: The file, and the robot's address.
+        inputs: Of the protocol.
+        sidecar, token: Of its sidecar; else of the guard's settings on this machine.
+        yes, labware, analyse_only, offsets, analysis_timeout, report: Options of the command.
+
+    Raises:
+        RobotError: The robot refuses, or is lost.
+        typer.Exit: It does not begin, or was left to the App; why was said.
+    """
+    from ..robot import RobotClient
+    from ..robot.preparing import analyse, refuse_what_is_not_there, take_offsets
+    from ..robot.running import run_analysed
+    from .robot_screen import TerminalScreen, show_end
+
     with RobotClient(robot) as client:
         health = client.health()
-        name = str(health.get("name") or client.url)
+        result.robot = name = str(health.get("name") or client.url)
         _say(f"{name} ({health.get('robot_model', 'robot')}, {health.get('api_version', '?')})")
         with TerminalScreen(console) as screen:
-            identifier, analysis = analyse(client, protocol, screen, analysis_timeout, inputs)
-        refused = _show_analysis(protocol, analysis, labware or (), parameter or ())
+            waiting = screen.analysing
+            identifier, analysis = analyse(client, protocol, waiting, analysis_timeout, inputs)
+        result.url, result.analysis = client.url, analysis
+        version = str(health.get("api_version") or "")
+        refused = _show_analysis(protocol, analysis, labware, inputs, version)
         if refused or analyse_only:
             raise typer.Exit(FINDINGS if refused else CLEAN)
-        if heeds_offsets:
-            refuse_lost_offsets(client, analysis.places)
+        refuse_what_is_not_there(client, analysis)
+        for line in take_offsets(client, analysis, inputs, offsets):
+            _say(line)
         _ask_to_start(name, yes)
         verdicts = _verdicts(sidecar, token, protocol, name)
-        result = RobotRun(protocol.name, name, client.url, "", analysis)
         try:
             with TerminalScreen(console) as screen:
                 run_analysed(client, identifier, result, screen, verdicts, inputs)
@@ -105,7 +153,6 @@ def run(
             if result.id and report is not None:
                 _write_report(report, result)
     show_end(console, result)
-    raise typer.Exit(_code(result))
 
 
 @app.command()
@@ -139,7 +186,7 @@ def watch(
         one_of("--on-undecided", on_undecided, choices),
         one_of("--on-link-loss", on_link_loss, choices),
     )
-    url, secret = _sidecar_of(sidecar, token)
+    url, secret = sidecar_of(sidecar, token)
     if url is None:
         raise ConfigurationError("Watching needs a sidecar: --sidecar http://127.0.0.1:7645.")
     with RobotClient(robot) as client:
@@ -160,33 +207,56 @@ def watch(
             if report is not None:
                 _write_report(report, result)
     show_end(console, result)
-    raise typer.Exit(_code(result))
+    raise typer.Exit(exit_code(result))
 
 
 def _show_analysis(
-    protocol: Path, analysis: Analysis, labware: Sequence[Path], parameters: Sequence[str]
+    protocol: Path, analysis: Analysis, labware: Sequence[Path], inputs: Inputs, version: str
 ) -> bool:
     """Say what the analysis found; whether the protocol must not start."""
     if not analysis.ok:
         for error in analysis.errors:
             _say(error, "red")
+        if lacks := re.search(r"No module named '([\w.]+)'", " ".join(analysis.errors)):
+            _say(_how_to_bring(lacks[1], protocol), "yellow")
+        for name in analysis.files_lacking:
+            _say(f"The parameter {name} needs a file: --csv {name}=FILE.", "red")
         _say(f"{protocol.name}: the robot's analysis failed; nothing has moved.", "bold red")
         return True
     if analysis.guard_words:
         _say(analysis.guard_words[-1])
         return False
     _say("This protocol carries no guard; Layer 1 checks it here, and nobody watches its tips.")
-    return _fails_here(protocol, labware, parameters)
+    return _fails_here(protocol, labware, inputs, version)
 
 
-def _fails_here(protocol: Path, labware: Sequence[Path], parameters: Sequence[str]) -> bool:
+def _how_to_bring(module: str, protocol: Path) -> str:
+    if module.partition(".")[0] == "aegis_ot":
+        return (
+            f"aegis-ot is not on this robot. Run a file that carries it (aegis-ot wrap "
+            f"{protocol.name}), or install it there (aegis-ot install, which needs ssh)."
+        )
+    return f"This robot lacks the package {module}. Install it there, or do without it."
+
+
+def _fails_here(protocol: Path, labware: Sequence[Path], inputs: Inputs, version: str) -> bool:
+    """Layer 1 with an ``opentrons`` that fits, the robot's own version first."""
+    from ..checking.engines import EngineMissing, engine_for, need_of
+    from ..checking.rehearser import Rehearser, TaskFailed
+    from ..checking.tasks import TimedCheck
     from ..dryrun import read_script
     from ..errors import RehearsalError
-    from ..preflight.check_protocol import check_script, errors_of, rejection, summary
+    from ..preflight import Options
+    from ..preflight.check_protocol import errors_of, rejection, summary
 
+    files = {name: str(path) for name, path in inputs.files.items()}
+    script = read_script(protocol, labware)
+    script = replace(script, parameters=inputs.values, csv_parameters=files)
     try:
-        found = check_script(read_script(protocol, labware, parameters))
-    except RehearsalError as error:
+        engine = engine_for(need_of(script.text), version)
+        with Rehearser(engine=engine, lasting=True) as rehearser:
+            found = rehearser.perform(TimedCheck(script, Options(), (), 120.0)).report
+    except (EngineMissing, RehearsalError, TaskFailed) as error:
         _say(f"Layer 1 could not rehearse it here: {error}", "yellow")
         return False
     is_rejected = bool(errors_of(found))
@@ -208,7 +278,7 @@ def _verdicts(
 ) -> VerdictReader | None:
     from ..robot.verdicts import VerdictReader
 
-    url, secret = _sidecar_of(sidecar, token)
+    url, secret = sidecar_of(sidecar, token)
     if url is None:
         return None
     reader = VerdictReader(url, secret, protocol.name, robot=robot)
@@ -216,7 +286,7 @@ def _verdicts(
     return reader
 
 
-def _sidecar_of(sidecar: str | None, token: str | None) -> tuple[str | None, str | None]:
+def sidecar_of(sidecar: str | None, token: str | None) -> tuple[str | None, str | None]:
     """Its address and token: given here, or the guard's own settings on this machine."""
     from ..settings import load_settings
 
@@ -234,10 +304,11 @@ def _write_report(path: Path, result: RobotRun) -> None:
     _say(f"Report: {path}")
 
 
-def _code(result: RobotRun) -> int:
+def exit_code(result: RobotRun) -> int:
+    """0 clean, 1 something is to be looked at or unheard, 2 the run failed."""
     if result.status == "failed":
         return BROKEN
-    flagged = any(known.is_flagged for known in result.verdicts.values())
+    flagged = result.not_as_rehearsed or any(it.is_flagged for it in result.verdicts.values())
     return FINDINGS if flagged or result.unheard or result.status != "succeeded" else CLEAN
 
 

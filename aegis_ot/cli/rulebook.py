@@ -8,17 +8,18 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from ..checking.given import known_rule, split
 from ..errors import ConfigurationError
-from ..preflight.database import load_database, shipped_rules
+from ..preflight.rule_set import load_rules, shipped_rules
 from ..reports.rule_text import rule_list, rule_text
 from ..vocabulary import counted
 from .exit_codes import CLEAN, FINDINGS
-from .options import known_rule, one_of, split
+from .options import one_of
 from .paths import write_text
 
 if TYPE_CHECKING:
     from ..checking.rule_examples import ExampleResult
-    from ..preflight import Database
+    from ..preflight import RuleSet
 
 RulesOption = Annotated[list[Path] | None, typer.Option(help="File or folder of further rules.")]
 
@@ -33,8 +34,8 @@ def explain(
     rules: RulesOption = None,
 ) -> None:
     """Say what a rule demands, why, how to mend a violation, and show examples."""
-    database = _database(rules)
-    typer.echo(rule_text(*database.rule(known_rule(rule, database))), nl=False)
+    rule_set = _rule_set(rules)
+    typer.echo(rule_text(*rule_set.rule(known_rule(rule, rule_set))), nl=False)
 
 
 @rules_app.command("list")
@@ -44,9 +45,9 @@ def list_rules(
 ) -> None:
     """List all rules in force."""
     one_of("--format", output_format, ("text", "json"))
-    database = _database(rules)
+    rule_set = _rule_set(rules)
     if output_format == "text":
-        typer.echo(rule_list(database), nl=False)
+        typer.echo(rule_list(rule_set), nl=False)
         return
     entries = [
         {
@@ -57,7 +58,7 @@ def list_rules(
             "scope": rule.scope,
             "statement": rule.statement,
         }
-        for family in database.families
+        for family in rule_set.families
         for rule in family.rules
     ]
     typer.echo(json.dumps({"rules": entries}, indent=2, ensure_ascii=False))
@@ -83,13 +84,13 @@ def run_rule_examples(
     from ..checking.tasks import RunExamples
 
     given = [*([path] if path is not None else []), *(rules or ())]
-    database = _database(given)
-    wanted = [known_rule(rule, database, "--select: ") for rule in split("--select", select)]
+    rule_set = _rule_set(given)
+    wanted = [known_rule(rule, rule_set, "--select: ") for rule in split("--select", select)]
     if not wanted:
-        wanted = _rules_of(database, given)
+        wanted = _rules_of(rule_set, given)
     paths = tuple(str(p.resolve()) for p in _further(given))
     results: list[ExampleResult] = []
-    with Rehearser(paths) as rehearser:
+    with Rehearser(lasting=True) as rehearser:
         for rule in wanted:
             try:
                 found = rehearser.perform(RunExamples(rule, paths, timeout))
@@ -118,7 +119,7 @@ def write_docs(
     """Write the documentation pages of the rules from the rule files."""
     from ..reports.rule_pages import rule_pages
 
-    pages = rule_pages(_database(rules))
+    pages = rule_pages(_rule_set(rules))
     if check:
         stale = [name for name, text in pages.items() if _text(out / name) != text]
         for name in stale:
@@ -138,8 +139,8 @@ def _text(path: Path) -> str | None:
         raise ConfigurationError(f"{path} cannot be read: {error}") from None
 
 
-def _database(paths: list[Path] | None) -> Database:
-    return load_database(_further(paths or []))
+def _rule_set(paths: list[Path] | None) -> RuleSet:
+    return load_rules(_further(paths or []))
 
 
 def _further(paths: list[Path]) -> list[Path]:
@@ -148,12 +149,12 @@ def _further(paths: list[Path]) -> list[Path]:
     return [p for p in paths if shipped not in (p.resolve(), *p.resolve().parents)]
 
 
-def _rules_of(database: Database, paths: list[Path]) -> list[str]:
+def _rules_of(rule_set: RuleSet, paths: list[Path]) -> list[str]:
     """The rules of these files, or all."""
     places = [path.resolve() for path in paths]
     return [
         rule.id
-        for family in database.families
+        for family in rule_set.families
         for rule in family.rules
         if not places
         or any(

@@ -30,25 +30,47 @@ def fit(
     boxes: Annotated[
         str, typer.Option(help="detector (the shipped one), true (boxes.csv), or an .onnx file.")
     ] = "detector",
+    start: Annotated[
+        str, typer.Option(help="shipped: keep the shipped model, and fit the lab's limits alone.")
+    ] = "",
+    false_stops_per_plate: Annotated[
+        float | None,
+        typer.Option(min=0.0, help="Normal wells of 96 that the lab's limits may flag; 1."),
+    ] = None,
+    smallest_leftover: Annotated[
+        float | None,
+        typer.Option(min=1, max=100, help="Instead: % left in the tip to catch 9 times in 10."),
+    ] = None,
 ) -> None:
-    """Build the world model of a lab from its recorded normal runs.
+    """Build the world model of a lab from its recorded runs.
 
-    Of a data set the wells labelled normal are learned; of a sidecar's store those that passed,
-    as things stand after the operator's decisions. Use it with: aegis-ot sidecar --world-model.
+    Of a data set the wells labelled normal are learned, and the failures of a qualification teach
+    the lab's own limits; of a sidecar's store those that passed, as things stand after the
+    operator's decisions. Use it with: aegis-ot sidecar --world-model.
 
     Exit codes: 0 written, 2 nothing could be learned, or the file cannot be written.
     """
     from ..sidecar.opening import is_store
     from ..worldmodel.fitting import STORED, fit_model
-    from .progress import Shown
+    from ..worldmodel.limits import FALSE_STOPS, LimitGoal
+    from .progress import StageBar
 
     one_of("--scorer", scorer, STORED)
     if out.is_dir():
         raise ConfigurationError(f"{out} is a folder; name the model file to write.")
+    if smallest_leftover is not None and false_stops_per_plate is not None:
+        raise ConfigurationError(
+            "Choose one: --false-stops-per-plate says what may be flagged, --smallest-leftover "
+            "what must be caught; each follows from the other."
+        )
+    wanted = LimitGoal(
+        FALSE_STOPS if false_stops_per_plate is None else false_stops_per_plate,
+        None if smallest_leftover is None else smallest_leftover / 100,
+    )
     found = [folder if is_store(folder) else open_dataset(folder) for folder in recordings]
     begun = time.monotonic()
-    with Shown() as shown:
-        model = fit_model(found, out, scorer, tip_finder(boxes), shown)
+    with StageBar() as shown:
+        model = fit_model(found, out, scorer, tip_finder(boxes), shown, start=start, wanted=wanted)
     typer.echo(_describe(out, model))
     typer.echo(f"Written in {time.monotonic() - begun:.1f} s.", err=True)
 
@@ -69,7 +91,7 @@ def show_model(
 
 
 def _describe(path: Path, model: ModelFile) -> str:
-    from ..vision.reach import recordings_of, shortcomings, smallest_in
+    from ..vision.reach import limits_in, recordings_of, shortcomings, smallest_in
 
     lines = [
         f"{path}: {model.kind}, {path.stat().st_size / 1e6:.2f} MB, made by aegis_ot "
@@ -82,4 +104,5 @@ def _describe(path: Path, model: ModelFile) -> str:
             f"{left_out}"
         )
     lines += [f"  {said}" for said in (*shortcomings(model), *map(str, smallest_in(model)))]
+    lines += [f"  {said}" for said in limits_in(model)]
     return "\n".join(lines)

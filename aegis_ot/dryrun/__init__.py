@@ -3,15 +3,15 @@
 Door: :func:`dry_run`, which gives a :class:`DryRun`.
 """
 
-from .runner import TRUSTING, DryRunSettings, Progress, dry_run
+from .runner import TRUSTING, DryRunProgress, DryRunSettings, dry_run
 from .scripts import read_script
 from .summary import DryRun, WellRow
 
 __all__ = [
     "TRUSTING",
     "DryRun",
+    "DryRunProgress",
     "DryRunSettings",
-    "Progress",
     "WellRow",
     "dry_run",
     "read_script",

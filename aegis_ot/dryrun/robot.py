@@ -17,11 +17,12 @@ class HeardRobot:
 
     Attributes:
         operations: All that were done, in order.
+        moves: Told likewise.
     """
 
     def __init__(self, moves: Callable[[Operation], None]) -> None:
         self.operations: list[Operation] = []
-        self._moves = moves
+        self.moves = moves
 
     def under(self, guarded: Callable[[Any], Any], file_name: str) -> Callable[[Any], Any]:
         """The guarded protocol, with this one listening."""
@@ -34,7 +35,7 @@ class HeardRobot:
 
     def before(self, operation: Operation) -> None:
         """Only what was done counts."""
-        self._moves(operation)
+        self.moves(operation)
 
     def after(self, operation: Operation) -> None:
         """It was done."""
@@ -55,7 +56,7 @@ def touched_after(operations: Sequence[Operation], wells: Sequence[WellRow]) -> 
             for index, operation in enumerate(operations)
             if operation.kind is OperationKind.DISPENSE
             and operation.well is not None
-            and flagged.well.startswith(str(operation.well))
+            and str(operation.well) in flagged.wells
         ),
         default=len(operations),
     )
@@ -65,6 +66,6 @@ def touched_after(operations: Sequence[Operation], wells: Sequence[WellRow]) -> 
             for operation in operations[last + 1 :]
             if operation.kind is not OperationKind.MOVE
             and operation.well is not None
-            and str(operation.well) != flagged.well
+            and str(operation.well) not in flagged.wells
         )
     )

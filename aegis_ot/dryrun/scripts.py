@@ -24,7 +24,7 @@ def read_script(path: Path, labware: Sequence[Path] = (), parameters: Sequence[s
     try:
         text = read_protocol(path)
     except (ConfigurationError, RehearsalError) as error:
-        raise ConfigurationError(f"Cannot read the protocol {path}: {error}") from None
+        raise ConfigurationError(f"{path}: {error}") from None
     return Script(
         text=text,
         file_name=path.name,

@@ -3,13 +3,25 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from ..account.seen import state_of
+from ..account import state_of
+from ..account.overview import (
+    DeliveryEntry,
+    KeyframeEntry,
+    RunOverview,
+    channels_of,
+    last_keyframe,
+    verdict_of,
+    well_name,
+)
 from ..reports.run_html import ReportedRun
-from ..vocabulary import FailureType, Gate, Outcome, Route
+from ..vocabulary import FailureType, Gate, Outcome, Route, WellRef, from_json, in_few_words
+
+if TYPE_CHECKING:
+    from ..preflight.rehearsal import Recording
 
 
 @dataclass(frozen=True)
@@ -20,6 +32,8 @@ class WellRow:
         trajectory: Number of the trajectory in the run.
         well: Where the liquid went, for people.
         address: The same in short, ``"3:D4"``.
+        wells: All that the delivery went into, each as the robot names it.
+        refs: The same, for programs.
         pipette: Opentrons pipette name.
         volume_ul: Commanded, µL per channel.
         score: Anomaly score; ``None`` without frames.
@@ -55,6 +69,8 @@ class WellRow:
     p_value: float | None = None
     recovered: bool = False
     unobserved: bool = False
+    wells: tuple[str, ...] = ()
+    refs: tuple[WellRef, ...] = ()
 
     @property
     def passed(self) -> bool:
@@ -82,6 +98,7 @@ class DryRun:
         touched_after_failure: Wells that the failed tip entered after the first fail.
         seconds: Wall time of the simulated run, s.
         notes: What a person should know of it, in sentences.
+        recording: Of its rehearsal.
     """
 
     protocol: str
@@ -93,6 +110,7 @@ class DryRun:
     touched_after_failure: tuple[str, ...] = ()
     seconds: float = 0.0
     notes: tuple[str, ...] = ()
+    recording: Recording | None = None
 
     @property
     def flagged(self) -> tuple[WellRow, ...]:
@@ -108,13 +126,13 @@ _UNANSWERED = (
 )
 
 
-def unproven(overview: Mapping[str, Any]) -> Iterator[str]:
+def unproven(overview: RunOverview) -> Iterator[str]:
     """Of which liquids nothing was seen to leave a tip, though wells of it passed on trust, or wait
     for an answer that nobody is there to give."""
     plain: dict[tuple[str, str], bool] = {}
     waiting: Counter[tuple[str, str]] = Counter()
     for entry in overview["trajectories"]:
-        known, verdict = entry["evidence"].get("calibration"), entry["verdict"] or {}
+        known, verdict = entry["evidence"].get("calibration"), verdict_of(entry)
         if not known:
             continue
         key = str(known["stream"][2] or "the liquid"), str(known["stream"][0])
@@ -134,29 +152,39 @@ def unproven(overview: Mapping[str, Any]) -> Iterator[str]:
             )
 
 
-def rows_of(overview: Mapping[str, Any]) -> tuple[WellRow, ...]:
+def rows_of(overview: RunOverview) -> tuple[WellRow, ...]:
     """Turn the sidecar's overview of a run into rows."""
     return tuple(_row(entry) for entry in overview["trajectories"] if entry["abandoned"] is None)
 
 
-def _address(keyframe: Mapping[str, Any]) -> str:
+def _wells(keyframe: KeyframeEntry) -> list[WellRef]:
     wells = keyframe.get("destinations") or keyframe.get("sources") or ()
-    if not wells:
-        return "-"
-    more = f" +{len(wells) - 1}" if len(wells) > 1 else ""
-    return f"{wells[0]['slot']}:{wells[0]['name']}{more}"
+    return [from_json(WellRef, well) for well in wells]
 
 
-def _row(entry: Mapping[str, Any]) -> WellRow:
-    verdict = entry["verdict"] or {}
-    last = entry["keyframes"][-1] if entry["keyframes"] else {}
+def _address(wells: Sequence[WellRef], entry: DeliveryEntry) -> str:
+    """Of a row of tips the wells that its verdict is about."""
+    outcome = verdict_of(entry).get("outcome")
+    about = [
+        well_name(one)
+        for one in channels_of(entry)
+        if one["outcome"] == outcome != Outcome.PASS.value
+    ]
+    named = [well for well in wells if well.name in about] or wells
+    words = in_few_words(well.name for well in named)
+    return words.replace(named[0].name, named[0].address, 1) if named else "-"
+
+
+def _row(entry: DeliveryEntry) -> WellRow:
+    verdict, last = verdict_of(entry), last_keyframe(entry)
+    wells = _wells(last)
     outcome = Outcome(verdict["outcome"]) if verdict else None
     if outcome is None and entry.get("unjudged"):
         outcome = Outcome.UNDECIDED
     return WellRow(
         trajectory=entry["trajectory"],
         well=entry["well"],
-        address=_address(last),
+        address=_address(wells, entry),
         pipette=last.get("pipette", ""),
         volume_ul=last.get("commanded_ul", 0.0),
         score=verdict.get("score"),
@@ -172,4 +200,6 @@ def _row(entry: Mapping[str, Any]) -> WellRow:
         p_value=entry["evidence"].get("p_value"),
         recovered=bool(entry.get("recovered")),
         unobserved=state_of(entry) == "unobserved",
+        wells=tuple(map(str, wells)),
+        refs=tuple(wells),
     )

@@ -12,7 +12,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_valida
 
 from ..errors import ConfigurationError
 from ..sidecar.settings_file import read_settings_file
-from .jobs import Needs
+from .jobs import JobNeeds
 
 EXCHANGE_VARIABLE = "AEGIS_OT_FLEET_EXCHANGE"
 """Says where the agents meet, over the file: an address may hold a password."""
@@ -30,8 +30,8 @@ class RobotConfig(BaseModel):
         labware: Load names that can be put on it; left out: any.
         remote: Its agent is served elsewhere (``aegis-ot fleet serve``) and found by its name.
         sidecar, token_variable: Of a real robot's sidecar, and the variable with its token.
-        offsets: ``"known"``: a job is refused where a real robot knows labware offsets, which its
-            run would not have; ``"none"``: it runs without them.
+        offsets: ``"known"``: a job runs with the labware offsets that a real robot keeps;
+            ``"none"``: without any.
         seed: Of a simulated robot's camera.
     """
 
@@ -65,7 +65,7 @@ class RobotConfig(BaseModel):
         """Whether there is no real robot behind it."""
         return self.address is None
 
-    def lacks(self, needs: Needs) -> list[str]:
+    def lacks(self, needs: JobNeeds) -> list[str]:
         """What this robot has not, in words; empty: it can run the protocol."""
         if needs.robot_type != self.robot_type:
             return [f"it is an {self.robot_type}, not a {needs.robot_type}"]

@@ -13,7 +13,7 @@ from .config import FleetConfig, RobotConfig
 from .hosting import MakeAgent, agents_of
 from .jobs import Job, numbered
 from .remote import RemoteAgent
-from .report import BROKEN_OFF, LOST, NOT_RUN, Entry, FleetReport
+from .report import BROKEN_OFF, LOST, NOT_RUN, FleetEntry, FleetReport
 from .schedule import fitting, next_job
 
 _OUT = (FleetError, RobotError, LinkError)
@@ -30,7 +30,7 @@ class FleetScreen:
     def stands(self, robot: str, status: Mapping[str, Any]) -> None:
         """A robot's status is new; see :meth:`~.agent.AegisAgent.status`."""
 
-    def ended(self, entry: Entry) -> None:
+    def ended(self, entry: FleetEntry) -> None:
         """A protocol has ended, or was given up."""
 
     def lost(self, robot: str, why: str) -> None:
@@ -58,7 +58,7 @@ class Coordinator:
         self._agents = agents
         self._screen = screen
         self._fits = fitting(jobs, robots)
-        self._entries = {job.name: Entry(job) for job in jobs}
+        self._entries = {job.name: FleetEntry(job) for job in jobs}
         self._real = {robot.name for robot in robots if not robot.simulated}
         self._waiting = list(jobs)
         self._running: list[Job] = []

@@ -26,7 +26,7 @@ _STROKE_S = 1.0
 
 
 @dataclass(frozen=True)
-class Needs:
+class JobNeeds:
     """What a protocol asks of a robot.
 
     Attributes:
@@ -56,7 +56,7 @@ class Job:
 
     name: str
     script: Script
-    needs: Needs
+    needs: JobNeeds
     expected_s: float
     faults: tuple[str, ...] = ()
 
@@ -83,7 +83,7 @@ class Job:
         return cls(
             str(values["name"]),
             Script(**values["script"]),
-            Needs(
+            JobNeeds(
                 needs["robot_type"],
                 dict(needs["pipettes"]),
                 tuple(needs["modules"]),
@@ -117,7 +117,7 @@ def read_job(
     recording = record(script, timeout_s=timeout_s, look=deck.look)
     moving = sum(_seconds(step) for step in recording.log if isinstance(step, Operation))
     names = {info.load_name for info in recording.labware.values() if not info.is_trash}
-    needs = Needs(deck.robot_type, deck.pipettes, tuple(deck.modules), frozenset(names))
+    needs = JobNeeds(deck.robot_type, deck.pipettes, tuple(deck.modules), frozenset(names))
     return Job(path.name, script, needs, moving + deck.waits_s, tuple(faults))
 
 

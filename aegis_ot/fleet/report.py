@@ -19,7 +19,7 @@ LOST, NOT_RUN, BROKEN_OFF = "lost", "not run", "broken off"
 
 
 @dataclass
-class Entry:
+class FleetEntry:
     """One protocol's way through the fleet.
 
     Attributes:
@@ -69,7 +69,7 @@ class FleetReport:
     """
 
     robots: Sequence[RobotConfig]
-    entries: Sequence[Entry]
+    entries: Sequence[FleetEntry]
     lost: dict[str, str] = field(default_factory=dict)
     began: float = field(default_factory=time.time)
     seconds: float = 0.0
@@ -106,7 +106,7 @@ class FleetReport:
         }
 
 
-def _about(entry: Entry, pictures: bool) -> dict[str, Any]:
+def _about(entry: FleetEntry, pictures: bool) -> dict[str, Any]:
     result = entry.result
     flagged = [
         {name: value for name, value in well.items() if pictures or name != "pictures"}

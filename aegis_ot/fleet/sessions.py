@@ -11,14 +11,14 @@ from pathlib import Path
 from typing import Any, Protocol
 
 from ..account import SeenWell
-from ..dryrun import DryRunSettings, Progress, dry_run
+from ..dryrun import DryRunProgress, DryRunSettings, dry_run
 from ..errors import LinkError
 from ..instrumentation import Operation, OperationKind
 from ..reports.run_html import ReportedRun, report_run
 from ..robot import Command, RobotClient
-from ..robot.offsets import refuse_lost_offsets
+from ..robot.preparing import Inputs, analyse, refuse_what_is_not_there, take_offsets
 from ..robot.run_report import run_report
-from ..robot.running import RobotRun, analyse, run_analysed
+from ..robot.running import RobotRun, run_analysed
 from ..robot.verdicts import VerdictReader, WellVerdict
 from ..sidecar import Judged, make_analyser
 from ..sidecar.config import CascadeSettings
@@ -99,7 +99,9 @@ class SimulatedSession:
         settings = DryRunSettings(
             faults=job.faults, seed=self._seed, rules="off", cascade=self._cascade
         )
-        done = dry_run(job.script, settings, make_analyser(settings.cascade), _Told(watch))
+        done = dry_run(
+            job.script, settings, make_analyser(settings.cascade), _WatchedProgress(watch)
+        )
         account = done.reported.account
         return {
             "outcome": done.outcome,
@@ -133,7 +135,7 @@ def _short(well: Mapping[str, Any]) -> dict[str, Any]:
     return {name: well.get(name) for name in ("well", "state", "failure", "reason", "line")}
 
 
-class _Told(Progress):
+class _WatchedProgress(DryRunProgress):
     """A dry run's progress, told to a watch."""
 
     def __init__(self, watch: Watch) -> None:
@@ -168,7 +170,7 @@ class RobotSession:
         assert robot.address is not None
         self._name = robot.name
         self._address = robot.address
-        self._heeds_offsets = robot.offsets == "known"
+        self._offsets = robot.offsets
         self._sidecar, self._token = robot.sidecar, token
 
     def run(self, job: Job, watch: Watch) -> dict[str, Any]:
@@ -177,17 +179,20 @@ class RobotSession:
         with RobotClient(self._address) as client, tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / Path(job.script.file_name).name
             path.write_text(job.script.text, encoding="utf-8")
-            identifier, analysis = analyse(client, path, screen, _ANALYSIS_TIMEOUT_S)
+            inputs = Inputs()
+            identifier, analysis = analyse(
+                client, path, screen.analysing, _ANALYSIS_TIMEOUT_S, inputs
+            )
             run = RobotRun(path.name, self._name, client.url, "", analysis)
             if not analysis.ok:
                 run.status, run.errors = "failed", analysis.errors
                 return _of_robot(run, None)
-            if self._heeds_offsets:
-                refuse_lost_offsets(client, analysis.places)
+            refuse_what_is_not_there(client, analysis)
+            screen.says(" ".join(take_offsets(client, analysis, inputs, self._offsets)))
             reader = self._reader(path.name, str(client.health().get("name") or ""))
             watch.ask_leave()
             try:
-                run_analysed(client, identifier, run, screen, reader)
+                run_analysed(client, identifier, run, screen, reader, inputs)
                 return _of_robot(run, reader)
             finally:
                 if reader is not None:
@@ -243,7 +248,7 @@ class _Screen:
         """A comment of the guard, or trouble with the connection."""
         self._watch.tell(text=text)
 
-    def waits(self, text: str) -> None:
+    def waits(self, text: str, recovery: bool = False) -> None:
         """The run waits for a person."""
         self._watch.tell(text=f"waits for a person: {text}" if text else "")
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from ..account import Inspection, seen_well, state_of
 from ..account.pictures import cut_pictures
 from ..account.seen import no_pictures
-from ..errors import StoreError
 from ..progress import Progress
 from ..sidecar.overview import run_overview
 from ..sidecar.store import Store
@@ -35,22 +34,16 @@ def inspect_run(
     chosen = pictured([(flag, False) for flag in flagged], most)
     progress.begin("Cutting pictures", len(entries))
 
-    def frame(sequence: int) -> bytes | None:
-        try:
-            return store.frame(run, sequence)
-        except StoreError:
-            return None
-
-    wells = []
+    wells, pictures = [], cut_pictures(store.frames_of(run))
     for entry, show in zip(entries, chosen, strict=True):
-        wells.append(seen_well(run, entry, cut_pictures(frame) if show else no_pictures))
+        wells.append(seen_well(run, entry, pictures if show else no_pictures))
         progress.step()
     source = run_source(overview)
-    finished = overview.get("finished") or {}
+    finished = overview.get("finished")
     facts = [
         ("frames", source),
         ("protocol", str(overview.get("protocol") or "unknown")),
-        ("run", str(finished.get("outcome") or "not finished")),
+        ("run", finished["outcome"] if finished else "not finished"),
     ]
     names = {name for entry in entries for name in entry["evidence"].get("scores", {})}
     return Inspection(run, source, facts, wells, ", ".join(sorted(names)))

@@ -2,11 +2,11 @@
 
 from .labware import LabwareInfo, WellInfo
 from .names import NameBinding, NameCollector
-from .operation import Event, EventKind, Listener, Operation, OperationKind, Pipette
+from .operation import Event, EventKind, Listener, Operation, OperationKind, PipetteInfo
 from .repeating import is_repeatable
 from .tap import Tap, tapped
 from .tip_layers import expel
-from .value_reader import Row, is_spot
+from .value_reader import PlateMapRow, is_spot
 from .wells import wells_under
 
 __all__ = [
@@ -18,8 +18,8 @@ __all__ = [
     "NameCollector",
     "Operation",
     "OperationKind",
-    "Pipette",
-    "Row",
+    "PipetteInfo",
+    "PlateMapRow",
     "Tap",
     "WellInfo",
     "expel",

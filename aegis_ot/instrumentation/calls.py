@@ -13,7 +13,7 @@ from typing import Any
 from ..vocabulary import WellRef
 from .callsite import CallSite
 from .labware import LabwareInfo
-from .operation import Operation, OperationKind, Pipette
+from .operation import Operation, OperationKind, PipetteInfo
 from .tip_layers import ROUNDING_UL
 from .wells import Nozzles, WellResolver
 
@@ -49,7 +49,7 @@ class CallReader:
         busy: Whether an operation is under way; calls from inside it are not read.
     """
 
-    def __init__(self, core: Any, pipette: Pipette, wells: WellResolver) -> None:
+    def __init__(self, core: Any, pipette: PipetteInfo, wells: WellResolver) -> None:
         self._core = core
         self._core_type: Any = type(core)
         self._weak_core = weakref.ref(core)

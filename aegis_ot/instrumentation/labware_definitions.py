@@ -6,8 +6,6 @@ import functools
 import json
 from typing import Any
 
-from opentrons_shared_data import get_shared_data_root
-
 from .labware import LabwareInfo, WellInfo
 
 
@@ -63,10 +61,12 @@ def _inner_sections(definition: Any) -> dict[str, tuple[Any, ...]]:
 def _newest_inner_sections(load_name: str) -> dict[str, tuple[Any, ...]]:
     """The same of the newest definition of this name: older ones do without."""
     try:
+        from opentrons_shared_data import get_shared_data_root
+
         folder = get_shared_data_root() / "labware" / "definitions" / "2" / load_name
         newest = max(folder.glob("*.json"), key=lambda path: int(path.stem))
         return _inner_sections(json.loads(newest.read_text(encoding="utf-8")))
-    except (OSError, ValueError):  # an Opentrons that keeps its definitions elsewhere
+    except (ImportError, OSError, ValueError):  # no Opentrons, or definitions kept elsewhere
         return {}
 
 

@@ -22,7 +22,7 @@ from ..vocabulary import WellRef
 from .callsite import ProtocolStack
 from .objects import is_member, word_of
 from .own_code import helper_modules
-from .value_reader import BARE, DEEPEST, Row, ValueReader, entries, is_spot, items
+from .value_reader import BARE, DEEPEST, PlateMapRow, ValueReader, entries, is_spot, items
 from .wells import WellResolver
 
 _SHARES_LOCALS = sys.version_info < (3, 13)
@@ -55,7 +55,7 @@ class NameBinding:
     line: int
     labware: tuple[str, ...] = ()
     spots: tuple[str, ...] = ()
-    rows: tuple[Row, ...] = ()
+    rows: tuple[PlateMapRow, ...] = ()
     values: tuple[str | float, ...] = ()
     numbers: tuple[tuple[str, float], ...] = ()
 
@@ -173,13 +173,13 @@ class NameCollector:
 
     def _look_at_notes(self) -> None:
         """What the protocol wrote on the wells themselves."""
-        notes: dict[str, list[Row]] = {}
+        notes: dict[str, list[PlateMapRow]] = {}
         for labware in self._labware.values():
             for well in labware.wells():
                 for name, said in self._reader.notes(well):
                     ref = self._reader.wells(well)
                     if ref:
-                        notes.setdefault(name, []).append(Row((("", ref[0]), (name, said))))
+                        notes.setdefault(name, []).append(PlateMapRow((("", ref[0]), (name, said))))
         for name, rows in notes.items():
             self._bindings.setdefault(NameBinding(name, (), "<wells>", 0, rows=tuple(rows)))
 

@@ -31,7 +31,7 @@ class OperationKind(str, Enum):
 
 
 @dataclass(frozen=True)
-class Pipette:
+class PipetteInfo:
     """One loaded pipette.
 
     Attributes:
@@ -93,7 +93,7 @@ class Operation:
     """
 
     kind: OperationKind
-    pipette: Pipette
+    pipette: PipetteInfo
     nozzles: tuple[str, ...]
     wells: tuple[WellRef | None, ...]
     disposal: bool = False
@@ -124,7 +124,7 @@ class Operation:
     @property
     def well(self) -> WellRef | None:
         """The first nozzle's well, or the first there is."""
-        return next((well for well in self.wells if well is not None), None)
+        return next(filter(None, self.wells), None)
 
     @property
     def is_air(self) -> bool:
@@ -133,7 +133,7 @@ class Operation:
             return True
         if self.kind is not OperationKind.ASPIRATE:
             return False
-        return self.well is None or (self.from_top is not None and self.from_top >= 0)
+        return (self.from_top is not None and self.from_top >= 0) or not any(self.wells)
 
 
 class Listener(Protocol):
@@ -167,6 +167,7 @@ class EventKind(str, Enum):
     PAUSED = "paused"
     COMMENT = "comment"
     MODULE = "module"
+    CUT_SHORT = "cut_short"
 
 
 @dataclass(frozen=True)
@@ -177,10 +178,12 @@ class Event:
         kind: What happened.
         line: Source line of the protocol.
         labware: Key of the labware concerned (see :class:`WellRef`), or ``""``.
-        wells: The wells concerned.
-        text: Message of a pause or comment; name of a liquid; new slot of a moved labware; what a
-            module did (``"set and wait for shake speed 500"``), ``labware`` being the plate on it.
-        volume: Declared volume of a loaded liquid, µL, or ``None``.
+        wells: The wells concerned; those that a call which was cut short left out.
+        text: Message of a pause or comment; name of a liquid, or of a method that was cut short;
+            new slot of a moved labware; what a module did (``"set and wait for shake speed 500"``),
+            ``labware`` being the plate on it.
+        volume: Declared volume of a loaded liquid, or what was written for the first of the wells
+            left out, µL, or ``None``.
         labware_info: What is known of a labware just loaded.
         description: What the protocol says of a loaded liquid besides its name.
     """

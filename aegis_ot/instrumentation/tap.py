@@ -17,7 +17,7 @@ from typing import Any
 from .calls import CORE_METHODS, CallReader, least_volume
 from .callsite import CallSite, ProtocolStack
 from .events import EventTap
-from .operation import Listener, Operation, Pipette
+from .operation import Listener, Operation, PipetteInfo
 from .repeating import repeated
 from .wells import WellResolver
 
@@ -105,7 +105,7 @@ class Tap:
 
     def _tap_instrument(self, core: Any) -> None:
         mount = core.get_mount().name.lower()
-        pipette = Pipette(
+        pipette = PipetteInfo(
             key=mount,
             name=str(core.get_pipette_name()),
             mount=mount,

@@ -44,7 +44,7 @@ Cell: TypeAlias = "WellRef | str | float"
 
 
 @dataclass(frozen=True)
-class Row:
+class PlateMapRow:
     """One row of a plate map: a well and what is said beside it.
 
     Attributes:
@@ -86,7 +86,7 @@ class Held(NamedTuple):
     wells: tuple[WellRef, ...] = ()
     labware: tuple[str, ...] = ()
     spots: tuple[str, ...] = ()
-    rows: tuple[Row, ...] = ()
+    rows: tuple[PlateMapRow, ...] = ()
     values: tuple[str | float, ...] = ()
     numbers: tuple[tuple[str, float], ...] = ()
 
@@ -195,7 +195,7 @@ class ValueReader:
             found.append((str(key), item))
         return tuple(found) if len(found) > 1 else ()
 
-    def rows(self, value: Any) -> tuple[Row, ...]:
+    def rows(self, value: Any) -> tuple[PlateMapRow, ...]:
         """A plate map: ``{"A1": "NTC"}``, or rows (of a CSV file, say) that each name a well.
 
         A map from well to well tells of transfers and not of roles, unless its columns do.
@@ -209,7 +209,7 @@ class ValueReader:
             found = list(self._table(items(value)))
         return tuple(
             row
-            for row in map(Row, found)
+            for row in map(PlateMapRow, found)
             if (row.wells or row.spots) and (row.said or any(column for column, _ in row.cells))
         )
 

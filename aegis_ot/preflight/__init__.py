@@ -7,8 +7,8 @@ Each step is a room of its own, and imports run down this list only (a contract 
     live_judging  the run beside its rehearsal
     opinion     what a model gets to know, what it answers, what of that counts
     checking    a protocol, or what a guard recorded, to a report
-    database    the rule files: loaded, validated, their schema
     judging     a recording to a reading and a verdict: cases, findings, waivers
+    rule_set    the rules in force: the shipped ones, and a laboratory's own
     checks      predicates over trace and roles, of which rules are made
     roles       what each well is for, and which assay it is
     evidence    all that speaks for the role of a well: names, plate maps, labels
@@ -24,34 +24,28 @@ from ..lazy import door
 
 if TYPE_CHECKING:
     from .check_protocol import check_script
-    from .database import load_database
-    from .judging import Options, Reading, Report, judge
+    from .judging import Interpretation, Options, Report, judge
     from .rehearsal import Script, record
-    from .rules import Database
+    from .rule_set import RuleSet, load_rules
 
 __getattr__ = door(
     __name__,
     {
-        "Database": "rules",
-        "Options": "judging",
-        "Reading": "judging",
-        "Report": "judging",
-        "Script": "rehearsal",
-        "check_script": "check_protocol",
-        "judge": "judging",
-        "load_database": "database",
-        "record": "rehearsal",
+        "check_protocol": "check_script",
+        "judging": "Options Interpretation Report judge",
+        "rehearsal": "Script record",
+        "rule_set": "RuleSet load_rules",
     },
 )
 
 __all__ = [
-    "Database",
+    "Interpretation",
     "Options",
-    "Reading",
     "Report",
+    "RuleSet",
     "Script",
     "check_script",
     "judge",
-    "load_database",
+    "load_rules",
     "record",
 ]

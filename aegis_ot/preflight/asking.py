@@ -18,7 +18,7 @@ from typing import Any
 from ..http_client import HttpClient
 from ..settings import Settings
 from ..vocabulary import Dossier, Opinion, Undecided, from_json, to_json
-from .judging import MODEL, Reading, Report
+from .judging import MODEL, Interpretation, Report
 from .opinion import make_dossier, merge
 
 LIVE_WAIT_S = 1.0
@@ -30,7 +30,9 @@ _POLL_S = 0.5
 _WHO = "the sidecar's model"
 
 
-def with_opinion(report: Report, reading: Reading, settings: Settings, protocol: Any) -> Report:
+def with_opinion(
+    report: Report, reading: Interpretation, settings: Settings, protocol: Any
+) -> Report:
     """The checks' report with the opinion of the sidecar's model merged into it.
 
     Never raises: whatever fails here, the checks' report stands. The protocol's context tells

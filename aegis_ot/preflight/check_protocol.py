@@ -2,23 +2,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from ..settings import Settings
 from ..vocabulary import Finding, Severity, counted
-from .database import load_database
-from .judging import Options, Reading, Report, judge, unanswered
+from .judging import Interpretation, Options, Report, judge, unanswered
 from .rehearsal import Recording, Script, record
-from .rules import Database
+from .rule_set import RuleSet, load_rules
 
 
-def read_for_guard(recording: Recording, settings: Settings) -> Reading:
+def read_for_guard(recording: Recording, settings: Settings) -> Interpretation:
     """Read a rehearsal on record as a guard's settings say.
 
     Raises:
         RuleError: A rule file cannot be used.
         ConfigurationError: A setting names a rule, role or family that does not exist.
     """
-    database = load_database([settings.rules_path] if settings.rules_path else [])
-    return Reading(recording, database, Options.from_settings(settings))
+    rule_set = load_rules([settings.rules_path] if settings.rules_path else [])
+    return Interpretation(recording, rule_set, Options.from_settings(settings))
 
 
 def check_recording(recording: Recording, settings: Settings) -> Report:
@@ -28,7 +29,7 @@ def check_recording(recording: Recording, settings: Settings) -> Report:
 
 def check_script(
     script: Script,
-    database: Database | None = None,
+    rule_set: RuleSet | None = None,
     options: Options | None = None,
     timeout_s: float = 120.0,
 ) -> Report:
@@ -39,7 +40,7 @@ def check_script(
         RuleError: A rule file cannot be used.
     """
     recording = record(script, timeout_s=timeout_s)
-    return judge(Reading(recording, database or load_database(), options))
+    return judge(Interpretation(recording, rule_set or load_rules(), options))
 
 
 def errors_of(report: Report) -> list[Finding]:
@@ -72,13 +73,20 @@ def counts_of(report: Report) -> str:
     parts = [
         counted(errors, "error"),
         counted(warnings, "warning"),
-        f"{len(report.undecided)} undecided",
+        f"{len(report.undecided)} undecided{_named([one.rule for one in report.undecided])}",
     ]
     if report.waived:
         parts.append(f"{len(report.waived)} waived")
     if report.remarks:
         parts.append(f"{counted(len(report.remarks), 'remark')} (aegis-ot check shows them)")
     return ", ".join(parts)
+
+
+def _named(rules: Sequence[str], most: int = 4) -> str:
+    """``" (PCR-1, PCR-2 and 3 more)"``; nothing of none."""
+    known = list(dict.fromkeys(rules))
+    rest = f" and {len(known) - most} more" if len(known) > most else ""
+    return f" ({', '.join(known[:most])}{rest})" if known else ""
 
 
 def tell_finding(finding: Finding) -> str:

@@ -17,10 +17,9 @@ from ..instrumentation import Event, EventKind, LabwareInfo, NameBinding, Operat
 from ..settings import Settings
 from ..vocabulary import Finding
 from .check_protocol import counts_of, errors_of
-from .database import load_database
-from .judging import Options, Reading, Report, judge, uncollected
+from .judging import Interpretation, Options, Report, judge, uncollected
 from .rehearsal import Comparison, Record, Recorder, Recording, RunPlan
-from .rules import Database
+from .rule_set import RuleSet, load_rules
 
 GUARD = "aegis_ot: "
 """How the guard's own comments and pauses begin."""
@@ -39,7 +38,7 @@ _ENTERS = frozenset(
 
 
 @dataclass(frozen=True)
-class Surroundings:
+class RunKnowledge:
     """What is known of a run beside its operations; asked when it is judged.
 
     Attributes:
@@ -73,7 +72,7 @@ class LiveJudge:
     def __init__(
         self,
         settings: Settings,
-        surroundings: Surroundings,
+        surroundings: RunKnowledge,
         recorder: Recorder,
         rehearsal: Recording | None,
         plan: RunPlan | None,
@@ -92,9 +91,9 @@ class LiveJudge:
         self.failure = ""
 
     @cached_property
-    def _database(self) -> Database:
+    def _rule_set(self) -> RuleSet:
         path = self._settings.rules_path
-        return load_database([path] if path else [])
+        return load_rules([path] if path else [])
 
     @property
     def difference(self) -> str:
@@ -172,7 +171,7 @@ class LiveJudge:
         return errors
 
     def _may_be_meant(self, rule: str) -> bool:
-        return any(check.get("pooled") for check in self._database.rule(rule)[1].checks)
+        return any(check.get("pooled") for check in self._rule_set.rule(rule)[1].checks)
 
     def _log(self) -> list[Record]:
         """All that was done, from before the guard began on."""
@@ -198,11 +197,13 @@ class LiveJudge:
     ) -> Report | None:
         around = self._around
         recording = Recording(
-            around.file, around.text, log, dict(labware), around.names(), around.parameters
+            around.text, around.file, log, dict(labware), around.names(), around.parameters
         )
         try:
             with uncollected():
-                reading = Reading(recording, self._database, Options.from_settings(self._settings))
+                reading = Interpretation(
+                    recording, self._rule_set, Options.from_settings(self._settings)
+                )
                 return judge(reading, so_far=so_far)
         except AegisError:
             raise

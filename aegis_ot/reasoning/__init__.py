@@ -4,24 +4,24 @@ Door: :func:`make_backend` for a model by name, :func:`judge_in` for Layer 1 wit
 :class:`Opinions` for the sidecar. The gate of Layer 2 is in :mod:`.vlm`, which alone needs OpenCV.
 """
 
-from .backend import Backend, Message, Passage, Picture, Reply, Request, State, Usage
+from .backend import Backend, Message, Passage, PromptPicture, Reply, Request, State, TokenUsage
 from .backends import (
     MODEL_FORMS,
     MODEL_VARIABLE,
     AnthropicBackend,
     ExportBackend,
-    Manner,
     OpenAIBackend,
-    Patience,
     RecordingBackend,
     ReplayBackend,
+    RequestOptions,
+    RetryPolicy,
     ScriptedBackend,
     make_backend,
     model_from_environment,
     project_model,
     record_from_environment,
 )
-from .configurations import Configuration, Judgement, judge_in, request_in
+from .configurations import AskingConfiguration, Judgement, judge_in, request_in
 from .opinions import Opinions
 from .prices import Price, PriceTable, load_prices
 from .tokens import RequestSize, estimate_tokens, request_size
@@ -30,27 +30,27 @@ __all__ = [
     "MODEL_FORMS",
     "MODEL_VARIABLE",
     "AnthropicBackend",
+    "AskingConfiguration",
     "Backend",
-    "Configuration",
     "ExportBackend",
     "Judgement",
-    "Manner",
     "Message",
     "OpenAIBackend",
     "Opinions",
     "Passage",
-    "Patience",
-    "Picture",
     "Price",
     "PriceTable",
+    "PromptPicture",
     "RecordingBackend",
     "ReplayBackend",
     "Reply",
     "Request",
+    "RequestOptions",
     "RequestSize",
+    "RetryPolicy",
     "ScriptedBackend",
     "State",
-    "Usage",
+    "TokenUsage",
     "estimate_tokens",
     "judge_in",
     "load_prices",

@@ -25,6 +25,9 @@ def _list(items: Mapping[str, Any]) -> dict[str, Any]:
     return {"type": "array", "items": items}
 
 
+SAID = ("holds", "violated", "cannot_tell", "not_applicable")
+"""What may be answered to an open question."""
+
 _TEXT = {"type": "string"}
 _WELLS = _list(_TEXT)
 _LINES = _list({"type": "integer"})
@@ -42,7 +45,7 @@ ANSWER_SCHEMA: dict[str, Any] = strict_object(
     answers=_list(
         strict_object(
             rule=_TEXT,
-            answer={"type": "string", "enum": ["holds", "violated", "cannot_tell"]},
+            answer={"type": "string", "enum": list(SAID)},
             reason=_TEXT,
             wells=_WELLS,
             lines=_LINES,

@@ -47,7 +47,7 @@ class State(str, Enum):
 
 
 @dataclass(frozen=True)
-class Picture:
+class PromptPicture:
     """An image in a message.
 
     Attributes:
@@ -81,7 +81,7 @@ class Message:
         role: ``"user"`` or ``"assistant"``.
     """
 
-    parts: tuple[str | Picture, ...]
+    parts: tuple[str | PromptPicture, ...]
     role: str = "user"
 
 
@@ -122,19 +122,19 @@ class Request:
         return hashlib.sha256(text.encode("utf-8", "surrogatepass")).hexdigest()
 
     @property
-    def pictures(self) -> tuple[Picture, ...]:
+    def pictures(self) -> tuple[PromptPicture, ...]:
         """All pictures, in order."""
-        return tuple(p for m in self.messages for p in m.parts if isinstance(p, Picture))
+        return tuple(p for m in self.messages for p in m.parts if isinstance(p, PromptPicture))
 
 
-def _part(part: str | Picture) -> dict[str, Any]:
-    if isinstance(part, Picture):
+def _part(part: str | PromptPicture) -> dict[str, Any]:
+    if isinstance(part, PromptPicture):
         return {"image": {"sha256": part.sha256, "media_type": part.media_type}}
     return {"text": part}
 
 
 @dataclass(frozen=True)
-class Usage:
+class TokenUsage:
     """Tokens that a call took, as the service counted them.
 
     Attributes:
@@ -154,8 +154,8 @@ class Usage:
         """Everything that was read."""
         return self.input + self.cached + self.cache_written
 
-    def __add__(self, other: Usage) -> Usage:
-        return Usage(
+    def __add__(self, other: TokenUsage) -> TokenUsage:
+        return TokenUsage(
             self.input + other.input,
             self.cached + other.cached,
             self.cache_written + other.cache_written,
@@ -182,7 +182,7 @@ class Reply:
     model: str
     value: Mapping[str, Any] | None = None
     detail: str = ""
-    usage: Usage = Usage()
+    usage: TokenUsage = TokenUsage()
     seconds: float = 0.0
     attempts: int = 1
     raw: str = field(default="", repr=False)

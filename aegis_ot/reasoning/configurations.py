@@ -16,16 +16,16 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from enum import Enum
 
-from ..preflight import Database, Report
-from ..preflight.judging import MODEL, Reading, verdict_of
+from ..preflight import Report, RuleSet
+from ..preflight.judging import MODEL, Interpretation, verdict_of
 from ..preflight.opinion import merge, no_answer
 from ..vocabulary import Dossier, Opinion, Severity, Undecided, VerdictWord
-from .backend import Backend, Reply, Request, State, Usage
+from .backend import Backend, Reply, Request, State, TokenUsage
 from .layer1_prompt import blind_request, hybrid_request, llm_only_request
 from .read_answer import read_opinion
 
 
-class Configuration(str, Enum):
+class AskingConfiguration(str, Enum):
     """See the module."""
 
     HYBRID = "hybrid"
@@ -45,7 +45,7 @@ class Judgement:
         reply: What came of asking the model; ``None`` if none was to be asked.
     """
 
-    configuration: Configuration
+    configuration: AskingConfiguration
     report: Report
     reply: Reply | None = None
 
@@ -55,16 +55,16 @@ class Judgement:
         return self.reply is not None and not self.reply.answered
 
     @property
-    def usage(self) -> Usage:
+    def usage(self) -> TokenUsage:
         """Tokens."""
-        return self.reply.usage if self.reply else Usage()
+        return self.reply.usage if self.reply else TokenUsage()
 
 
 def judge_in(
-    configuration: Configuration | str,
+    configuration: AskingConfiguration | str,
     report: Report,
     dossier: Dossier,
-    reading: Reading,
+    reading: Interpretation,
     backend: Backend | None = None,
 ) -> Judgement:
     """Judge a protocol, already rehearsed and checked, in one configuration.
@@ -76,68 +76,68 @@ def judge_in(
         reading: What both were made from.
         backend: Whom to ask; not needed for ``rules-only``.
     """
-    configuration = Configuration(configuration)
-    if configuration is Configuration.RULES_ONLY:
+    configuration = AskingConfiguration(configuration)
+    if configuration is AskingConfiguration.RULES_ONLY:
         return rules_only(report)
-    if configuration is Configuration.HYBRID:
+    if configuration is AskingConfiguration.HYBRID:
         return hybrid(report, dossier, reading, backend)
-    if configuration is Configuration.TRACE_BLIND:
-        return trace_blind(report, dossier, reading.database, backend)
-    return llm_only(report, dossier, reading.database, backend)
+    if configuration is AskingConfiguration.TRACE_BLIND:
+        return trace_blind(report, dossier, reading.rule_set, backend)
+    return llm_only(report, dossier, reading.rule_set, backend)
 
 
 def request_in(
-    configuration: Configuration | str, dossier: Dossier, database: Database
+    configuration: AskingConfiguration | str, dossier: Dossier, rule_set: RuleSet
 ) -> Request | None:
     """The request that a configuration makes; ``None`` for ``rules-only``."""
     makers = {
-        Configuration.HYBRID: hybrid_request,
-        Configuration.TRACE_BLIND: blind_request,
-        Configuration.LLM_ONLY: llm_only_request,
+        AskingConfiguration.HYBRID: hybrid_request,
+        AskingConfiguration.TRACE_BLIND: blind_request,
+        AskingConfiguration.LLM_ONLY: llm_only_request,
     }
-    make = makers.get(Configuration(configuration))
-    return None if make is None else make(dossier, database)
+    make = makers.get(AskingConfiguration(configuration))
+    return None if make is None else make(dossier, rule_set)
 
 
 def rules_only(report: Report) -> Judgement:
     """The checks alone."""
-    return Judgement(Configuration.RULES_ONLY, report)
+    return Judgement(AskingConfiguration.RULES_ONLY, report)
 
 
 def hybrid(
-    report: Report, dossier: Dossier, reading: Reading, backend: Backend | None
+    report: Report, dossier: Dossier, reading: Interpretation, backend: Backend | None
 ) -> Judgement:
     """The checks, and a model that sees what they saw; it can only add."""
-    reply = ask(backend, hybrid_request(dossier, reading.database))
+    reply = ask(backend, hybrid_request(dossier, reading.rule_set))
     merged = merge(report, opinion_of(reply, dossier), reading)
-    return Judgement(Configuration.HYBRID, merged, reply)
+    return Judgement(AskingConfiguration.HYBRID, merged, reply)
 
 
 def trace_blind(
-    report: Report, dossier: Dossier, database: Database, backend: Backend | None
+    report: Report, dossier: Dossier, rule_set: RuleSet, backend: Backend | None
 ) -> Judgement:
     """A model with rules and source decides alone (the paper's hybrid)."""
-    reply = ask(backend, blind_request(dossier, database))
-    return _model_alone(Configuration.TRACE_BLIND, report, dossier, reply)
+    reply = ask(backend, blind_request(dossier, rule_set))
+    return _model_alone(AskingConfiguration.TRACE_BLIND, report, dossier, reply)
 
 
 def llm_only(
-    report: Report, dossier: Dossier, database: Database, backend: Backend | None
+    report: Report, dossier: Dossier, rule_set: RuleSet, backend: Backend | None
 ) -> Judgement:
     """A model with the source decides alone, by what it knows itself.
 
     The rules are withheld, so whatever it calls one is its own.
     """
-    reply = ask(backend, llm_only_request(dossier, database))
+    reply = ask(backend, llm_only_request(dossier, rule_set))
     if reply.value is not None:
         findings = [{**finding, "rule": MODEL} for finding in reply.value["findings"]]
         reply = replace(reply, value={**reply.value, "findings": findings})
-    return _model_alone(Configuration.LLM_ONLY, report, dossier, reply)
+    return _model_alone(AskingConfiguration.LLM_ONLY, report, dossier, reply)
 
 
-def give_opinion(dossier: Dossier, database: Database, backend: Backend | None) -> Opinion:
+def give_opinion(dossier: Dossier, rule_set: RuleSet, backend: Backend | None) -> Opinion:
     """Ask the hybrid question, and hold the answer to what exists."""
-    return opinion_of(ask(backend, hybrid_request(dossier, database)), dossier)
+    return opinion_of(ask(backend, hybrid_request(dossier, rule_set)), dossier)
 
 
 def opinion_of(reply: Reply, dossier: Dossier, blind: bool = False) -> Opinion:
@@ -156,11 +156,11 @@ def ask(backend: Backend | None, request: Request) -> Reply:
 
 
 def _model_alone(
-    configuration: Configuration, report: Report, dossier: Dossier, reply: Reply
+    configuration: AskingConfiguration, report: Report, dossier: Dossier, reply: Reply
 ) -> Judgement:
     opinion = opinion_of(reply, dossier, blind=True)
     # No check stands beside these: what the model reports is what there is.
-    severe = configuration is Configuration.LLM_ONLY
+    severe = configuration is AskingConfiguration.LLM_ONLY
     findings = tuple(
         replace(finding, severity=Severity.ERROR) if severe else finding
         for finding in opinion.findings

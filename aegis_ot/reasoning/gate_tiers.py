@@ -13,7 +13,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from ..vision.gates import Case, Cost, GateDecision
+from ..vision.gates import Cost, GateDecision, GateInput
 from ..vocabulary import Gate, Outcome
 from .backend import Backend, Reply, Request
 from .prices import PriceTable
@@ -82,7 +82,7 @@ class VlmTiers:
         self._prices = prices
         self._spending = Spending(budget or Budget())
 
-    def examine(self, case: Case) -> GateDecision:
+    def examine(self, case: GateInput) -> GateDecision:
         """Judge one case; undecided if no model gives an answer, or none may be asked."""
         run = case.sample.plate
         costs: list[Cost] = []

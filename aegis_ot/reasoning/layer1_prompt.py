@@ -11,7 +11,8 @@ from __future__ import annotations
 import hashlib
 
 from ..preflight.opinion import rule_text
-from ..preflight.rules import Database, Family
+from ..preflight.rule_set import RuleSet
+from ..preflight.rules import Family
 from ..preflight.source import source_lines
 from ..vocabulary import Dossier, one_line
 from .answer import ANSWER_SCHEMA, BLIND_SCHEMA
@@ -21,7 +22,7 @@ from .prompts_text import prompt
 PURPOSE = "layer1"
 
 
-def hybrid_request(dossier: Dossier, database: Database) -> Request:
+def hybrid_request(dossier: Dossier, rule_set: RuleSet) -> Request:
     """Rules, API reference, source, trace, roles, open questions."""
     extra = [brief.text for brief in dossier.rules if brief.text]
     parts = [
@@ -32,25 +33,25 @@ def hybrid_request(dossier: Dossier, database: Database) -> Request:
         parts.insert(0, "Rules of this laboratory, beside those above:\n" + "\n".join(extra))
     return Request(
         PURPOSE,
-        _system("instructions", rules_text(database)),
+        _system("instructions", rules_text(rule_set)),
         (Message(("\n\n".join(parts),)),),
         ANSWER_SCHEMA,
     )
 
 
-def blind_request(dossier: Dossier, database: Database) -> Request:
+def blind_request(dossier: Dossier, rule_set: RuleSet) -> Request:
     """Rules, API reference and source: the paper's own prompt, without the trace."""
     return Request(
         PURPOSE,
-        _system("blind", rules_text(database)),
+        _system("blind", rules_text(rule_set)),
         (Message((_fenced(_source(dossier)),)),),
         BLIND_SCHEMA,
     )
 
 
-def llm_only_request(dossier: Dossier, database: Database) -> Request:
+def llm_only_request(dossier: Dossier, rule_set: RuleSet) -> Request:
     """API reference and source; rules withheld, the families' names given."""
-    families = "Assay families: " + ", ".join(f.family for f in database.assays) + "."
+    families = "Assay families: " + ", ".join(f.family for f in rule_set.assays) + "."
     return Request(
         PURPOSE,
         _system("llm_only", families),
@@ -59,10 +60,10 @@ def llm_only_request(dossier: Dossier, database: Database) -> Request:
     )
 
 
-def rules_text(database: Database) -> str:
+def rules_text(rule_set: RuleSet) -> str:
     """All rules, by family, with the roles that the families know."""
     lines = ["# Rules", ""]
-    for family in database.assays:
+    for family in rule_set.assays:
         lines.append(f"## {family.family}: {family.title}")
         lines.append(_roles_by_side(family))
         for rule in family.rules:
@@ -74,8 +75,15 @@ def rules_text(database: Database) -> str:
 
 def _roles_by_side(family: Family) -> str:
     sides = {"source": "drawn from", "destination": "filled", "any": "either"}
+
+    needed = {role for rule in family.rules for need in rule.needs for role in need.split("|")}
+
+    def named(name: str) -> str:
+        serves = sorted((family.closure(name) - {name}) & needed)
+        return f"{name} (is {', '.join(serves)})" if serves else name
+
     listed = (
-        (told, [name for name, role in family.roles.items() if role.side == side])
+        (told, [named(name) for name, role in family.roles.items() if role.side == side])
         for side, told in sides.items()
     )
     return "Roles: " + "; ".join(f"{told}: {', '.join(names)}" for told, names in listed if names)

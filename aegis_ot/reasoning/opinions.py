@@ -15,10 +15,10 @@ import tempfile
 import threading
 from pathlib import Path
 
-from ..preflight import Database, load_database
+from ..preflight import RuleSet, load_rules
 from ..vocabulary import Dossier, Opinion, from_json, to_json
 from .backend import Backend, State
-from .configurations import Configuration, give_opinion, request_in
+from .configurations import AskingConfiguration, give_opinion, request_in
 
 MOST_PENDING = 8
 """Questions asked at once; more are told to come back."""
@@ -38,18 +38,18 @@ class Opinions:
     Args:
         backend: Whom to ask; ``None``: every opinion is ``no_model``.
         folder: Where to keep opinions over restarts; ``None``: in memory only.
-        database: The rules; the shipped ones if left out.
+        rule_set: The rules; the shipped ones if left out.
     """
 
     def __init__(
         self,
         backend: Backend | None,
         folder: Path | None = None,
-        database: Database | None = None,
+        rule_set: RuleSet | None = None,
     ) -> None:
         self._backend = backend
         self._folder = folder
-        self._database = database
+        self._rule_set = rule_set
         self._changed = threading.Condition()
         self._known: dict[str, Opinion] = {}
         self._pending: set[str] = set()
@@ -107,16 +107,16 @@ class Opinions:
             self._pending.discard(digest)
             self._changed.notify_all()
 
-    def _rules(self) -> Database:
-        if self._database is None:
-            self._database = load_database()
-        return self._database
+    def _rules(self) -> RuleSet:
+        if self._rule_set is None:
+            self._rule_set = load_rules()
+        return self._rule_set
 
     def _place(self, dossier: Dossier) -> Path | None:
         """Where its opinion is kept; another model or another question has another place."""
         if self._folder is None or self._backend is None:
             return None
-        request = request_in(Configuration.HYBRID, dossier, self._rules())
+        request = request_in(AskingConfiguration.HYBRID, dossier, self._rules())
         asked = f"{self._backend.name} {request.hash if request else ''}"
         mark = hashlib.sha256(asked.encode("utf-8", "surrogatepass")).hexdigest()[:16]
         return self._folder / f"{dossier.digest}-{mark}.json"

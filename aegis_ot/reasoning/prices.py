@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import ConfigurationError
-from .backend import Usage
+from .backend import TokenUsage
 
 VARIABLE = "AEGIS_OT_PRICES"
 
@@ -46,7 +46,7 @@ class PriceTable:
         fitting = [known for known in self.prices if _fits(name, known.lower())]
         return self.prices[max(fitting, key=len)] if fitting else None
 
-    def cost(self, model: str, usage: Usage) -> float | None:
+    def cost(self, model: str, usage: TokenUsage) -> float | None:
         """What ``usage`` cost, in :attr:`currency`; ``None`` if the model has no price here."""
         price = self.price(model)
         if price is None:

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..vision.types import Image, TipDetection
-from .backend import Picture
+from .backend import PromptPicture
 
 _GREYS = (1.0, 99.0)
 """Percentiles that become black and white."""
@@ -55,7 +55,7 @@ def picture_of(
     detection: TipDetection | None,
     crop: CropSettings,
     normal: tuple[Image, TipDetection] | None = None,
-) -> Picture:
+) -> PromptPicture:
     """The tip cut out with a margin and brought to size.
 
     Where none was found, the place is shown where the normal well's is, at the same moment; without
@@ -117,7 +117,7 @@ def _stretched(image: Floats, saturation: float) -> Floats:
     return np.asarray((coloured - low) * (255.0 / max(high - low, _LEAST_RANGE)), np.float32)
 
 
-def _encoded(image: Floats, crop: CropSettings) -> Picture:
+def _encoded(image: Floats, crop: CropSettings) -> PromptPicture:
     levels = np.clip(image, 0, 255).astype(np.uint8)
     _, data = cv2.imencode(".jpg", levels, [cv2.IMWRITE_JPEG_QUALITY, crop.quality])
-    return Picture(np.asarray(data).tobytes())
+    return PromptPicture(np.asarray(data).tobytes())

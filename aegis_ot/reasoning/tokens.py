@@ -13,7 +13,7 @@ import json
 import re
 from dataclasses import dataclass
 
-from .backend import Picture, Request
+from .backend import PromptPicture, Request
 
 _PIECES = re.compile(r"[^\W\d_]+|\d+|\n+|[^\w\s]|_")
 
@@ -54,7 +54,7 @@ def request_size(request: Request) -> RequestSize:
     rest = sum(estimate_tokens(p.text) for p in request.system if not p.cached)
     for message in request.messages:
         for part in message.parts:
-            picture = isinstance(part, Picture)
+            picture = isinstance(part, PromptPicture)
             rest += PICTURE_TOKENS if picture else estimate_tokens(str(part))
     if cached:
         cached += form

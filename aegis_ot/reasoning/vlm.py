@@ -16,13 +16,13 @@ from typing import Any
 
 import cv2
 
-from ..vision.gates import Case, GateDecision
+from ..vision.gates import GateDecision, GateInput
 from ..vision.measuring import ColumnReading
 from ..vision.signs import SIGNS, Sign
 from ..vision.types import Image, TipDetection, TrajectorySample
 from ..vocabulary import FailureType, Gate, KeyframeKind, Outcome, Route, one_line
 from .answer import strict_object
-from .backend import Backend, Message, Passage, Picture, Request
+from .backend import Backend, Message, Passage, PromptPicture, Request
 from .prompts_text import prompt
 from .tip_pictures import CropSettings, picture_of
 
@@ -76,7 +76,7 @@ class VlmGate:
         self._backend = backend
         self._crop = crop or CropSettings()
 
-    def examine(self, case: Case) -> GateDecision:
+    def examine(self, case: GateInput) -> GateDecision:
         """Judge one case; undecided if the model gives no answer."""
         if all(case.sample.frames.get(kind) is None for kind in KeyframeKind):
             return self._undecided("There is no frame to show to the model.")
@@ -136,11 +136,11 @@ class VlmGate:
         return GateDecision(Outcome.UNDECIDED, self.gate, reason)
 
 
-def gate_request(case: Case, crop: CropSettings | None = None) -> Request:
+def gate_request(case: GateInput, crop: CropSettings | None = None) -> Request:
     """The question about one well: what was commanded, then the four pictures."""
     crop = crop or CropSettings()
     sample = case.sample
-    parts: list[str | Picture] = ["\n".join(_facts(case))]
+    parts: list[str | PromptPicture] = ["\n".join(_facts(case))]
     for number, kind in enumerate(KeyframeKind, 1):
         frame = sample.frames.get(kind)
         if frame is None:
@@ -166,7 +166,7 @@ def gate_request(case: Case, crop: CropSettings | None = None) -> Request:
     )
 
 
-def _facts(case: Case) -> list[str]:
+def _facts(case: GateInput) -> list[str]:
     sample = case.sample
     reagent = sample.reagent.strip()
     lines = [
@@ -203,7 +203,7 @@ def _told(sign: Sign) -> str:
     return f"{sign.words} (picture{'s' if numbers[1:] else ''} {' and '.join(numbers)})"
 
 
-def _why(case: Case) -> str:
+def _why(case: GateInput) -> str:
     if case.near_band:
         return _NEAR_BAND
     if case.route is Route.GREY_ZONE and case.score is None:
@@ -225,7 +225,7 @@ def _tells(reading: ColumnReading, expected_ul: float | None) -> bool:
     )
 
 
-def _normal(case: Case, kind: KeyframeKind) -> tuple[Image, TipDetection] | None:
+def _normal(case: GateInput, kind: KeyframeKind) -> tuple[Image, TipDetection] | None:
     """The same moment of this run's normal well."""
     known: TrajectorySample | None = case.normal
     if known is None or known.frames is case.sample.frames:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from ..checking import CheckRun
 
-FORMATS = ("text", "json", "sarif", "github", "junit", "html")
+FORMATS = ("text", "line", "json", "sarif", "github", "junit", "html")
 """Of a report on checked protocols."""
 
 SHOW_ROLES = ("text", "json", "html")

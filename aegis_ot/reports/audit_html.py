@@ -6,7 +6,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from ..account import PlateMap, SeenWell, plate_maps, seen_well
+from ..account import PlateView, SeenWell, plates_of, seen_well
+from ..account.overview import RunOverview
 from ..account.pictures import cut_pictures
 from ..account.seen import no_pictures
 from .html_page import html_page
@@ -30,7 +31,7 @@ class ShownSuspect:
 
 
 def audit_html(
-    overview: Mapping[str, Any],
+    overview: RunOverview,
     audit: Mapping[str, Any],
     frame: Callable[[int], bytes | None],
     views: PlateViews | None = None,
@@ -47,7 +48,7 @@ def audit_html(
     suspects: Sequence[Mapping[str, Any]] = audit["suspects"]
     standing = [one for one in suspects if one["stands_out"]]
     shown = suspects[: min(max(len(standing), LEAST_SHOWN), MOST_SHOWN)]
-    plates: list[PlateMap] = plate_maps(overview["trajectories"])
+    plates: list[PlateView] = plates_of(overview)
     return html_page(
         "aegis_ot.reports",
         "audit.html",
@@ -76,7 +77,7 @@ def ranks_of(suspects: Sequence[Mapping[str, Any]], most: int) -> dict[int, int]
 
 
 def _shown(
-    overview: Mapping[str, Any],
+    overview: RunOverview,
     suspects: Sequence[Mapping[str, Any]],
     frame: Callable[[int], bytes | None],
 ) -> list[ShownSuspect]:

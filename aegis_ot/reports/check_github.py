@@ -9,12 +9,12 @@ from collections.abc import Iterator
 
 from ..checking import CheckedProtocol, CheckRun
 from ..vocabulary import Severity
-from .wording import by_model, fit_to_print, listed, summary_line
+from .wording import by_model, file_line, fit_to_print, listed, location, summary_line
 
 
 def check_github(run: CheckRun) -> str:
     """Render as workflow commands, and a closing line for the log."""
-    names = {rule.id: rule.name for rule in run.database.rules}
+    names = {rule.id: rule.name for rule in run.rule_set.rules}
     protocols = map(fit_to_print, run.protocols)
     lines = [line for checked in protocols for line in _annotations(checked, names)]
     return "\n".join([*lines, summary_line(run)]) + "\n"
@@ -33,12 +33,17 @@ def _annotations(checked: CheckedProtocol, names: dict[str, str]) -> Iterator[st
         kind = "error" if finding.severity is Severity.ERROR else "warning"
         # The last line is where the harm was done.
         line = finding.lines[-1] if finding.lines else None
-        told = (finding.message, finding.why, f"Fix: {finding.fix}" if finding.fix else "")
+        place = f"{location(checked, line)}: " if line and checked.unit != "line" else ""
+        told = (
+            f"{place}{finding.message}",
+            finding.why,
+            f"Fix: {finding.fix}" if finding.fix else "",
+        )
         message = "\n".join(part for part in told if part)
         title = " ".join(
             part for part in (finding.rule, names.get(finding.rule), by_model(finding)) if part
         )
-        yield _command(kind, checked.file, line, title, message)
+        yield _command(kind, checked.file, file_line(checked, line), title, message)
     if checked.unanswered:
         title = "aegis-ot: no answer of the model"
         yield _command("error", checked.file, None, title, checked.unanswered)

@@ -1,10 +1,12 @@
-"""Checked protocols as one HTML page: no script, no link."""
+"""Checked protocols as one HTML page: no link, and no script but the one that plays rehearsals."""
 
 from __future__ import annotations
 
 from ..checking import CheckedProtocol, CheckRun
+from ..checking.playback import marks_of
 from ..vocabulary import Finding
 from .html_page import Filters, html_page
+from .played import mark_of, played
 from .wording import (
     by_model,
     listed,
@@ -34,10 +36,22 @@ def check_html(run: CheckRun) -> str:
         "check.html",
         filters,
         run=run,
-        rules={rule.id: rule for rule in run.database.rules},
+        rules={rule.id: rule for rule in run.rule_set.rules},
         summary=summary_line(run),
         excerpt=_excerpt,
+        played={
+            checked.file: played(
+                checked.playback, map(mark_of, checked.findings), checked.lines, checked.unit
+            )
+            for checked in run.protocols
+        },
+        steps=_steps,
     )
+
+
+def _steps(checked: CheckedProtocol, finding: Finding) -> list[int]:
+    """The steps at which a finding happened."""
+    return [] if checked.playback is None else marks_of(checked.playback, finding.sites)
 
 
 def _excerpt(checked: CheckedProtocol, finding: Finding) -> list[Row]:
@@ -55,5 +69,7 @@ def _excerpt(checked: CheckedProtocol, finding: Finding) -> list[Row]:
     for number in shown:
         if rows and number > rows[-1][0] + 1:
             rows.append((0, "", ""))
-        rows.append((number, checked.lines[number - 1], site_label(sites.get(number, []))))
+        step = checked.steps.get(number)
+        text = f"{f'{step}: ' if step else ''}{checked.lines[number - 1]}"
+        rows.append((number, text, site_label(sites.get(number, []))))
     return rows

@@ -17,7 +17,9 @@ to say: ``error`` (``message``, ``line``) where it could not be judged, ``model`
 ``state``, ``detail``, ``seconds``, ``tokens``) where a model was asked, ``waived``, ``baselined``,
 ``remarks`` (``line``, ``message``) on conflicting evidence, modules that were found around it and
 waivers that waive nothing, ``notes``, ``parameters`` and, on request, ``families`` and ``roles``.
-A finding that a model made and no check has ``"source": "model"``.
+A finding that a model made and no check has ``"source": "model"``. Of a file that has commands
+for lines (``lines_are``), a finding has ``steps`` (``number``, ``name``) where the file tells
+Protocol Designer's.
 """
 
 from __future__ import annotations
@@ -36,7 +38,7 @@ SCHEMA_VERSION = 2
 def check_json(run: CheckRun) -> str:
     """Render as JSON text."""
     protocols = [
-        {**protocol_values(c, run.explain_roles), "rules": c.states(run.database)}
+        {**protocol_values(c, run.explain_roles), "rules": c.states(run.rule_set)}
         for c in run.protocols
     ]
     data = {
@@ -69,12 +71,14 @@ def protocol_values(checked: CheckedProtocol, explain_roles: bool = False) -> di
         "file": checked.file,
         "family": checked.family,
         "verdict": checked.verdict.value,
-        "findings": [_finding(finding) for finding in checked.findings],
+        "findings": [_finding(checked, finding) for finding in checked.findings],
         "undecided": [
             {"rule": u.rule, "reason": u.reason, "paste": u.paste, "to_write": u.to_write}
             for u in checked.undecided
         ],
     }
+    if checked.unit != "line":
+        values["lines_are"] = f"{checked.unit}s"
     if checked.problem is not None:
         values["error"] = {"message": checked.problem.message, "line": checked.problem.line}
     reply = checked.judgement.reply if checked.judgement else None
@@ -88,10 +92,10 @@ def protocol_values(checked: CheckedProtocol, explain_roles: bool = False) -> di
         }
     if checked.waived:
         values["waived"] = [
-            {**_finding(w.finding), "reason": w.waiver.reason} for w in checked.waived
+            {**_finding(checked, w.finding), "reason": w.waiver.reason} for w in checked.waived
         ]
     if checked.baselined:
-        values["baselined"] = [_finding(finding) for finding in checked.baselined]
+        values["baselined"] = [_finding(checked, finding) for finding in checked.baselined]
     if checked.remarks:
         values["remarks"] = [{"line": r.line, "message": r.message} for r in checked.remarks]
     if checked.notes:
@@ -117,8 +121,8 @@ def protocol_values(checked: CheckedProtocol, explain_roles: bool = False) -> di
     return values
 
 
-def _finding(finding: Finding) -> dict[str, Any]:
-    values = {
+def _finding(checked: CheckedProtocol, finding: Finding) -> dict[str, Any]:
+    values: dict[str, Any] = {
         "rule": finding.rule,
         "severity": finding.severity.value,
         "wells": [well.address for well in finding.wells],
@@ -126,6 +130,9 @@ def _finding(finding: Finding) -> dict[str, Any]:
         "message": finding.message,
         "fix": finding.fix,
     }
+    steps = [checked.steps[line] for line in finding.lines if line in checked.steps]
+    if steps:
+        values["steps"] = [dataclasses.asdict(step) for step in dict.fromkeys(steps)]
     if finding.source != "rules":
         values["source"] = finding.source
     return values

@@ -70,7 +70,7 @@ def _rules(checked: CheckedProtocol, run: CheckRun) -> Iterator[RuleSpec]:
         return
     told = {*checked.report.judged, *(finding.rule for finding in checked.findings)}
     told |= {undecided.rule for undecided in checked.undecided}
-    yield from (rule for rule in run.database.rules if rule.id in told)
+    yield from (rule for rule in run.rule_set.rules if rule.id in told)
 
 
 def _case(suite: Element, checked: CheckedProtocol, name: str) -> Element:
@@ -97,7 +97,7 @@ def _told(checked: CheckedProtocol, finding: Finding) -> str:
 def _where(checked: CheckedProtocol, line: int | None) -> str:
     if not line or line > len(checked.lines):
         return checked.file
-    return f"{checked.file}:{line}: {checked.lines[line - 1].strip()}"
+    return f"{location(checked, line)}: {checked.lines[line - 1].strip()}"
 
 
 def _writable(text: str) -> str:

@@ -10,14 +10,16 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Iterator, Sequence
-from pathlib import Path, PurePosixPath
+from pathlib import PurePosixPath
 from typing import Any
 from urllib.parse import quote
 
+from .._version import DOCUMENTATION
 from ..checking import CheckedProtocol, CheckRun
+from ..preflight import load_rules
 from ..preflight.rules import Family, RuleSpec
 from ..vocabulary import Finding, Severity, Site
-from .wording import by_model, site_label, sites_by_line
+from .wording import by_model, file_line, place_in_file, site_label, sites_by_line
 
 SCHEMA = (
     "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
@@ -26,7 +28,7 @@ SCHEMA = (
 
 def check_sarif(run: CheckRun) -> str:
     """Render as a SARIF log with one run."""
-    families, rules = run.database.families, run.database.rules
+    families, rules = run.rule_set.families, run.rule_set.rules
     index = {rule.id: number for number, rule in enumerate(rules)}
     notifications = [n for checked in run.protocols for n in _notifications(checked, index)]
     log = {
@@ -60,10 +62,11 @@ def check_sarif(run: CheckRun) -> str:
 
 
 def _rule(rule: RuleSpec, family: Family) -> dict[str, Any]:
-    """A rule; its help is the file that it stands in, with all that it says of it."""
-    place = Path(family.path).resolve().as_uri() if family.path else ""
+    """A rule; its help is its page of the documentation, if it is not a laboratory's own."""
+    shipped = {one.family for one in load_rules().families}
+    place = f"{DOCUMENTATION}rules/{family.family}.html#{rule.id}-{rule.name}".lower()
     return {
-        **({"helpUri": f"{place}#{quote(rule.id)}"} if place else {}),
+        **({"helpUri": place} if family.family in shipped else {}),
         "id": rule.id,
         "name": "".join(word.capitalize() for word in rule.name.split("-")),
         "shortDescription": {"text": rule.name.replace("-", " ")},
@@ -123,7 +126,9 @@ def _result(
 
 def _location(checked: CheckedProtocol, line: int | None, label: str = "") -> dict[str, Any]:
     physical: dict[str, Any] = {"artifactLocation": _artifact(checked)}
-    if line:
+    if line and file_line(checked, line) is None:
+        label = f"{place_in_file(checked, line)}{': ' if label else ''}{label}"
+    elif line:
         region: dict[str, Any] = {"startLine": line}
         if line <= len(checked.lines):
             region["snippet"] = {"text": checked.lines[line - 1]}

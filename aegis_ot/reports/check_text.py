@@ -55,10 +55,10 @@ def check_text(run: CheckRun, colour: bool = False) -> str:
         colour: Whether to use ANSI colours.
     """
     paint = _Paint(colour)
-    names = {rule.id: rule.name for rule in run.database.rules}
+    names = {rule.id: rule.name for rule in run.rule_set.rules}
     volumes = {
         rule.id
-        for rule in run.database.rules
+        for rule in run.rule_set.rules
         if all(check["check"] == "volume_bookkeeping" for check in rule.checks)
     }
     blocks: list[str] = []
@@ -137,7 +137,7 @@ def _findings(checked: CheckedProtocol, names: dict[str, str], paint: _Paint) ->
         head = _head(finding, names.get(finding.rule, ""), paint)
         if seen[kind] > _IN_FULL:
             place = location(checked, next(reversed(finding.lines), None))
-            before = "".join(f"; line {line}" for line in finding.lines[:-1])
+            before = "".join(f"; {checked.unit} {line}" for line in finding.lines[:-1])
             alike.append(f"{head}: likewise at {place} ({listed_wells(finding.wells, 12)}{before})")
             continue
         if alike:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from jinja2 import ChoiceLoader, Environment, PackageLoader, StrictUndefined
 
 from .. import __version__
-from ..vocabulary import KeyframeKind
+from ..vocabulary import Gate, KeyframeKind
 
 if TYPE_CHECKING:  # `aegis-ot check` does without numpy and OpenCV
     from ..account import Level
@@ -54,9 +54,13 @@ def _environment(room: str) -> Environment:
         lstrip_blocks=True,
     )
     environment.filters.update(
-        data_url=lambda picture: data_url(picture.jpeg), level=_level, moment=_moment
+        data_url=lambda picture: data_url(picture.jpeg),
+        lasted=_lasted,
+        level=_level,
+        moment=_moment,
     )
     environment.globals["titles"] = KEYFRAME_TITLES
+    environment.globals["gates"] = {gate.value: gate.traits.does for gate in Gate}
     return environment
 
 
@@ -75,6 +79,19 @@ def _moment(seconds: float) -> str:
     return time.strftime("%Y-%m-%d %H:%M", time.localtime(seconds))
 
 
+def _lasted(seconds: float) -> str:
+    """``48 s``, ``12 min``, ``1 h 05 min``."""
+    minutes = round(seconds / 60)
+    if seconds < 60:
+        return f"{max(0.0, seconds):.0f} s"
+    return f"{minutes} min" if minutes < 60 else f"{minutes // 60} h {minutes % 60:02d} min"
+
+
 def data_url(jpeg: bytes) -> str:
     """A JPEG as an address that holds it."""
     return "data:image/jpeg;base64," + base64.b64encode(jpeg).decode("ascii")
+
+
+def video_url(video: bytes) -> str:
+    """A WebM video likewise."""
+    return "data:video/webm;base64," + base64.b64encode(video).decode("ascii")

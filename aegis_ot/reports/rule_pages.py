@@ -11,7 +11,8 @@ from typing import Any
 
 from ..errors import RuleError
 from ..preflight.checks import CHECKS
-from ..preflight.rules import Database, Example, Family, RoleSpec, RuleSpec
+from ..preflight.rule_set import RuleSet
+from ..preflight.rules import Example, Family, RoleSpec, RuleSpec
 from .field_page import field_page, parameters
 from .rule_text import code_of, needs_in_words, shown_examples
 
@@ -23,19 +24,19 @@ _CODE_HEAD = (
 _OPTIONAL = {"required": "", "none": " (optional)"}
 
 
-def rule_pages(database: Database) -> dict[str, str]:
+def rule_pages(rule_set: RuleSet) -> dict[str, str]:
     """All pages, by file name: an index, one page per family, those of checks and of fields.
 
     Raises:
         RuleError: A family has the name of one of the other pages.
     """
     pages = {
-        "README.md": "\n".join(_index(database)) + "\n",
-        "checks.md": "\n".join(_checks(database)) + "\n",
+        "README.md": "\n".join(_index(rule_set)) + "\n",
+        "checks.md": "\n".join(_checks(rule_set)) + "\n",
         "fields.md": field_page(_CODE_HEAD),
     }
     taken = {name.casefold() for name in pages}
-    for family in database.families:
+    for family in rule_set.families:
         name = f"{family.family}.md"
         if name.casefold() in taken:
             raise RuleError(
@@ -46,13 +47,13 @@ def rule_pages(database: Database) -> dict[str, str]:
     return pages
 
 
-def _index(database: Database) -> Iterator[str]:
+def _index(rule_set: RuleSet) -> Iterator[str]:
     yield _HEAD
     yield ""
     yield "# Rules"
     yield ""
     yield (
-        f"{len(database.rules)} rules: of {len(database.assays)} assay families, and of handling, "
+        f"{len(rule_set.rules)} rules: of {len(rule_set.assays)} assay families, and of handling, "
         "which concerns every protocol. A rule is data: a JSON file per family in `rules/` names "
         "the words that reveal the family, the roles that its wells play, and its rules; each "
         "rule names [checks](checks.md) and their parameters. All that such a file may hold: "
@@ -61,7 +62,7 @@ def _index(database: Database) -> Iterator[str]:
     yield ""
     yield "| rule | name | severity | statement |"
     yield "|---|---|---|---|"
-    for family in database.families:
+    for family in rule_set.families:
         for rule in family.rules:
             yield (
                 f"| [{rule.id}]({family.family}.md#{_anchor(rule)}) | {rule.name} | "
@@ -70,7 +71,7 @@ def _index(database: Database) -> Iterator[str]:
     yield ""
     yield "## Families"
     yield ""
-    for family in database.families:
+    for family in rule_set.families:
         yield f"- [{family.title}]({family.family}.md) (`{family.family}`): {family.description}"
     yield ""
     yield "## Waiving a rule"
@@ -174,7 +175,7 @@ def _example(kind: str, example: Example) -> Iterator[str]:
     yield "```"
 
 
-def _checks(database: Database) -> Iterator[str]:
+def _checks(rule_set: RuleSet) -> Iterator[str]:
     yield _CODE_HEAD
     yield ""
     yield "# Checks"
@@ -184,7 +185,7 @@ def _checks(database: Database) -> Iterator[str]:
         "parameters may be left out where it says so."
     )
     for name, check in CHECKS.items():
-        users = [r.id for r in database.rules if any(c["check"] == name for c in r.checks)]
+        users = [r.id for r in rule_set.rules if any(c["check"] == name for c in r.checks)]
         yield ""
         yield f"## {name}"
         yield ""

@@ -6,7 +6,8 @@ import textwrap
 from collections.abc import Iterator
 
 from ..checking.rule_example_files import examples_of
-from ..preflight.rules import Database, Example, Family, RuleSpec
+from ..preflight.rule_set import RuleSet
+from ..preflight.rules import Example, Family, RuleSpec
 from ..vocabulary import counted
 
 _WIDTH = 100
@@ -72,18 +73,19 @@ def _wrapped(text: str, label: str = "") -> str:
     return textwrap.fill(label + text, _WIDTH, subsequent_indent=" " * min(len(label), 5))
 
 
-def rule_list(database: Database) -> str:
-    """All rules, by family, one per line."""
+def rule_list(rule_set: RuleSet) -> str:
+    """All rules, by family, each with what it demands."""
     lines = []
-    width = max(len(rule.id) for rule in database.rules)
-    names = max(len(rule.name) for rule in database.rules)
-    for family in database.families:
+    width = max(len(rule.id) for rule in rule_set.rules)
+    names = max(len(rule.name) for rule in rule_set.rules)
+    for family in rule_set.families:
         lines.append(f"{family.family}: {family.title}")
         for rule in family.rules:
             scope = ", every family" if rule.scope == "all" else ""
             lines.append(
                 f"  {rule.id:{width}}  {rule.name:{names}}  {rule.severity}{scope}".rstrip()
             )
-    families = counted(len(database.families), "family", "families")
-    lines.append(f"{counted(len(database.rules), 'rule')} in {families}.")
+            lines.append(textwrap.indent(textwrap.fill(rule.statement, _WIDTH - 8), " " * 8))
+    families = counted(len(rule_set.families), "family", "families")
+    lines.append(f"{counted(len(rule_set.rules), 'rule')} in {families}.")
     return "\n".join(lines) + "\n"

@@ -1,18 +1,24 @@
-"""The report of one run, or of several, as one HTML page: no script, no link, pictures inside."""
+"""The report of one run, or of several, as one HTML page: no link, pictures inside, and no script
+but the one that plays rehearsals."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
-from ..account import PlateMap, SeenWell, plate_maps, run_account, seen_well
+from ..account import PlateView, SeenWell, plates_of, run_account, seen_well
+from ..account.overview import RunOverview
 from ..account.pictures import cut_pictures
 from ..account.summary import is_flagged
-from .html_page import html_page
+from .html_page import html_page, video_url
 
 MOST_PICTURED = 60
 """Flagged wells with pictures; of further ones the numbers are told. About 0.15 MB each."""
+
+
+MOST_CLIPS = 20
+"""Flagged wells with a video, some 0.3 MB each."""
 
 
 @dataclass(frozen=True)
@@ -24,18 +30,24 @@ class ReportedRun:
         plates: In the order in which they were filled.
         flagged: Wells that failed, are undecided, or that a person decided, with their frames.
         notes: What else must be said.
+        clips: Videos of the seconds around flagged deliveries, and around what happened at others,
+            as addresses that hold them.
+        played: The rehearsal to play, see :func:`~.played.played`; ``None``: there is none.
     """
 
     account: Mapping[str, Any]
-    plates: Sequence[PlateMap]
+    plates: Sequence[PlateView]
     flagged: Sequence[SeenWell]
     notes: Sequence[str] = ()
+    clips: Mapping[int, str] = field(default_factory=dict)
+    played: Mapping[str, Any] | None = None
 
 
 def report_run(
-    overview: Mapping[str, Any],
+    overview: RunOverview,
     frame: Callable[[int], bytes | None],
     notes: Sequence[str] = (),
+    clip: Callable[[int], bytes | None] = lambda _: None,
 ) -> ReportedRun:
     """Gather a run's report.
 
@@ -43,6 +55,7 @@ def report_run(
         overview: Answer of ``GET /v1/runs/{run}``.
         frame: The JPEG of a keyframe's number; ``None`` where it is missing.
         notes: What else must be said.
+        clip: The video of a delivery, WebM; ``None`` where there is none.
     """
     entries = [entry for entry in overview["trajectories"] if is_flagged(entry)]
     pictures = cut_pictures(frame)
@@ -50,9 +63,10 @@ def report_run(
         seen_well(str(overview["run"]), entry, pictures if number < MOST_PICTURED else _none)
         for number, entry in enumerate(entries)
     ]
-    return ReportedRun(
-        run_account(overview), plate_maps(overview["trajectories"]), wells, tuple(notes)
-    )
+    others = [one for one in overview["trajectories"] if one.get("clip") and one not in entries]
+    numbers = [entry["trajectory"] for entry in (*entries[:MOST_CLIPS], *others[:MOST_CLIPS])]
+    clips = {number: video_url(video) for number in numbers if (video := clip(number))}
+    return ReportedRun(run_account(overview), plates_of(overview), wells, tuple(notes), clips)
 
 
 def run_report_html(runs: Sequence[ReportedRun], title: str = "") -> str:

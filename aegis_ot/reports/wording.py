@@ -108,5 +108,18 @@ def site_label(sites: Sequence[Site], at_most: int = 4) -> str:
 
 
 def location(checked: CheckedProtocol, line: int | None) -> str:
-    """``file:line``, or the file alone."""
+    """``file:line``, or the file alone; ``file, step 4 (transfer), command 12`` without lines."""
+    if line and checked.unit != "line":
+        return f"{checked.file}, {place_in_file(checked, line)}"
     return f"{checked.file}:{line}" if line else checked.file
+
+
+def place_in_file(checked: CheckedProtocol, line: int) -> str:
+    """``line 12``; ``step 4 (transfer), command 12`` where Protocol Designer's steps are told."""
+    step = checked.steps.get(line)
+    return f"{f'{step}, ' if step else ''}{checked.unit} {line}"
+
+
+def file_line(checked: CheckedProtocol, line: int | None) -> int | None:
+    """The line of the file, for programs that open it there; ``None`` if it has none."""
+    return line if checked.unit == "line" else None

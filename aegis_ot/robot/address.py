@@ -6,7 +6,7 @@ from urllib.parse import urlsplit
 
 from ..errors import ConfigurationError
 
-PORT = 31950
+PORT, TLS_PORT = 31950, 32313
 
 
 def robot_url(host: str) -> str:
@@ -31,4 +31,4 @@ def robot_url(host: str) -> str:
             "App shows it, for example 192.168.1.7."
         )
     shown = f"[{name}]" if ":" in name else name
-    return f"{parts.scheme}://{shown}:{port or PORT}"
+    return f"{parts.scheme}://{shown}:{port or (PORT if parts.scheme == 'http' else TLS_PORT)}"

@@ -1,4 +1,4 @@
-"""The robot half as one text: its modules and rules, packed, with what unpacks them in memory.
+"""The robot half as one text: its modules, packed, with what unpacks them in memory.
 
 For robots on which nothing may be installed. The package gets a name of its own, made from its
 contents: two protocols wrapped by two versions, or one beside an installed ``aegis_ot``, do not
@@ -22,6 +22,9 @@ from pathlib import Path
 PACKAGE = Path(__file__).resolve().parent.parent
 ROOT = "aegis_ot"
 
+# Line (from 1) and character (from 0).
+_Place = tuple[int, int]
+
 _LOADER = Path(__file__).with_name("bundle_loader.py")
 
 
@@ -40,18 +43,15 @@ class Bundle:
     modules: int
 
 
-def make_bundle(package: Path = PACKAGE) -> Bundle:
-    """Pack ``guard`` with all that it imports, and the rules.
+def make_bundle(package: Path = PACKAGE, also: Iterable[str] = ()) -> Bundle:
+    """Pack ``guard`` with all that it imports, the compiled rules among it.
 
     Args:
         package: Folder of the package.
+        also: Further modules of it that a protocol imports.
     """
-    files = {name: stripped(text) for name, text in sorted(robot_half(package))}
+    files = {name: stripped(text) for name, text in sorted(robot_half(package, also))}
     modules = len(files)
-    folder = rules_folder(package)
-    for path in sorted(folder.rglob("*.json")):
-        text = json.dumps(json.loads(path.read_text(encoding="utf-8")), ensure_ascii=False)
-        files[f"rules/{path.relative_to(folder).as_posix()}"] = text
     data = json.dumps(files, ensure_ascii=False, separators=(",", ":")).encode()
     name = f"{ROOT}_{hashlib.sha256(data).hexdigest()[:10]}"
     loader = stripped(_LOADER.read_text(encoding="utf-8")) + "install(NAME, PAYLOAD)\n"
@@ -63,19 +63,15 @@ def make_bundle(package: Path = PACKAGE) -> Bundle:
     return Bundle(name, statement, modules)
 
 
-def rules_folder(package: Path) -> Path:
-    """Of the rule database: inside an installed package, beside one that is checked out."""
-    return next(f for f in (package / "rules", package.parent / "rules") if f.is_dir())
-
-
 def _packed(data: bytes) -> str:
     # Its letters need no escape in a literal of Python.
     return base64.b85encode(zlib.compress(data, 9)).decode()
 
 
-def robot_half(package: Path) -> Iterator[tuple[str, str]]:
-    """Path in the package and source of every module that ``guard`` can come to import."""
-    todo, seen = [ROOT], set()
+def robot_half(package: Path, also: Iterable[str] = ()) -> Iterator[tuple[str, str]]:
+    """Path in the package and source of every module that ``guard``, or one of ``also``, can come
+    to import."""
+    todo, seen = [ROOT, *also], set()
     while todo:
         module = todo.pop()
         path = _path_of(package, module)
@@ -85,7 +81,11 @@ def robot_half(package: Path) -> Iterator[tuple[str, str]]:
         text = path.read_text(encoding="utf-8")
         yield path.relative_to(package).as_posix(), text
         around = module if path.name == "__init__.py" else module.rpartition(".")[0]
-        todo += [around, *_imported(ast.parse(text), around)]
+        tree = ast.parse(text)
+        if module == ROOT:
+            # What its door opens later is `check`, which stays on the workstation.
+            tree.body = [node for node in tree.body if not isinstance(node, ast.If)]
+        todo += [around, *_imported(tree, around)]
 
 
 def _imported(tree: ast.AST, around: str) -> Iterable[str]:
@@ -113,9 +113,10 @@ def _path_of(package: Path, module: str) -> Path | None:
 
 
 def stripped(text: str) -> str:
-    """Without comments and docstrings; every statement stays on its line."""
+    """Without comments, docstrings and what a function says of its types; every statement stays
+    on its line."""
     lines = text.splitlines()
-    blank: list[tuple[tuple[int, int], tuple[int, int], str]] = []
+    blank: list[tuple[_Place, _Place, str]] = []
     for token in tokenize.generate_tokens(io.StringIO(text).readline):
         if token.type == tokenize.COMMENT:
             blank.append((token.start, token.end, ""))
@@ -124,14 +125,28 @@ def stripped(text: str) -> str:
             first = node.body[0] if node.body else None
             if isinstance(first, ast.Expr) and isinstance(first.value, ast.Constant):
                 # Not nothing: a dataclass without a docstring writes one, which takes time.
-                start = (first.lineno, _characters(lines, first.lineno, first.col_offset))
-                end_line, end_offset = first.end_lineno or 0, first.end_col_offset or 0
-                blank.append((start, (end_line, _characters(lines, end_line, end_offset)), "'.'"))
+                blank.append((_start(lines, first), _end(lines, first), "'.'"))
+        if isinstance(node, ast.arg) and node.annotation:
+            line, left = _start(lines, node)
+            blank.append(((line, left + len(node.arg)), _end(lines, node.annotation), ""))
+        if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef)) and node.returns:
+            line, left = _start(lines, node.returns)
+            arrow = lines[line - 1].rindex("->", 0, left)
+            blank.append(((line, arrow), _end(lines, node.returns), ""))
     for (begins, left), (ends, right), instead in sorted(blank, reverse=True):
         tail = lines[ends - 1][right:]
         lines[begins - 1] = lines[begins - 1][:left] + instead + tail
         lines[begins:ends] = [""] * (ends - begins)
     return "\n".join(line.rstrip() for line in lines) + "\n"
+
+
+def _start(lines: list[str], node: ast.expr | ast.stmt | ast.arg) -> _Place:
+    return node.lineno, _characters(lines, node.lineno, node.col_offset)
+
+
+def _end(lines: list[str], node: ast.expr | ast.stmt) -> _Place:
+    line = node.end_lineno or 0
+    return line, _characters(lines, line, node.end_col_offset or 0)
 
 
 def _characters(lines: list[str], line: int, offset: int) -> int:

@@ -1,19 +1,16 @@
 """Serves the modules of a bundle from memory. Its text travels inside wrapped protocols.
 
-Standard library only, and nothing is read or written before a protocol runs.
+Standard library only, and nothing is read or written.
 """
 
 from __future__ import annotations
 
-import atexit
 import base64
 import importlib.abc
 import importlib.machinery
 import json
 import os
-import shutil
 import sys
-import tempfile
 import zlib
 from collections.abc import Sequence
 from types import ModuleType
@@ -25,13 +22,12 @@ class BundleFinder(importlib.abc.MetaPathFinder, importlib.abc.InspectLoader):
 
     Args:
         name: The package's name.
-        files: Text by path: modules, and rules below ``rules/``.
+        files: Text of each module by path.
     """
 
     def __init__(self, name: str, files: dict[str, str]) -> None:
         self.bundle = name
         self._files = files
-        self._folder = f"<{name}>"
 
     def find_spec(
         self, fullname: str, path: Sequence[str] | None = None, target: ModuleType | None = None
@@ -40,12 +36,10 @@ class BundleFinder(importlib.abc.MetaPathFinder, importlib.abc.InspectLoader):
         file = self._file(fullname)
         if file is None:
             return None
-        if file.startswith("preflight/"):
-            self._unpack_rules()
         spec = importlib.machinery.ModuleSpec(
             fullname,
             self,
-            origin=os.path.join(self._folder, *file.split("/")),
+            origin=os.path.join(f"<{self.bundle}>", *file.split("/")),
             is_package=file.endswith("__init__.py"),
         )
         spec.has_location = True
@@ -75,19 +69,6 @@ class BundleFinder(importlib.abc.MetaPathFinder, importlib.abc.InspectLoader):
             if file in self._files:
                 return file
         return None
-
-    def _unpack_rules(self) -> None:
-        """Rules are read as files: below a folder of this process, first needed in ``run``."""
-        if os.path.isdir(self._folder):
-            return
-        self._folder = tempfile.mkdtemp(prefix=f"{self.bundle}-")
-        atexit.register(shutil.rmtree, self._folder, ignore_errors=True)
-        for file, text in self._files.items():
-            if file.startswith("rules/"):
-                place = os.path.join(self._folder, *file.split("/"))
-                os.makedirs(os.path.dirname(place), exist_ok=True)
-                with open(place, "w", encoding="utf-8") as out:
-                    out.write(text)
 
 
 def install(name: str, payload: str) -> None:

@@ -12,8 +12,9 @@ from typing import Any
 import httpx
 
 from ..errors import RobotError, RobotRefused, RobotUnreachable
+from ..settings import load_settings
 from .address import robot_url
-from .shapes import Analysis, Page, RunView, read_analysis, read_command, read_run, read_time
+from .shapes import Analysis, Page, RunSnapshot, read_analysis, read_command, read_run, read_time
 
 Values = Mapping[str, Any]
 """Runtime parameters by variable name: numbers, texts, flags."""
@@ -32,17 +33,22 @@ class RobotClient:
     Args:
         host: As for :func:`~.address.robot_url`.
         transport: Instead of the network, for tests.
+        token: Of a robot whose access is controlled; the setting ``robot_token`` if ``None``. With
+            it goes the setting ``robot_reason``.
 
     Every method raises :class:`RobotUnreachable` where no answer comes in time,
     :class:`RobotRefused` where the server refuses, :class:`RobotError` where its answer makes no
     sense.
     """
 
-    def __init__(self, host: str, transport: httpx.BaseTransport | None = None) -> None:
+    def __init__(
+        self, host: str, transport: httpx.BaseTransport | None = None, token: str | None = None
+    ) -> None:
         self.url = robot_url(host)
+        settings = load_settings(**({"robot_token": token} if token else {}))
         self._http = httpx.Client(
             base_url=self.url,
-            headers={"Opentrons-Version": "*"},
+            headers=settings.robot_headers(),
             timeout=TIMEOUT_S,
             transport=transport,
             trust_env=False,  # a proxy for the internet does not lead to a robot on the bench
@@ -64,7 +70,11 @@ class RobotClient:
         return found
 
     def upload(
-        self, protocol: Path, labware: Sequence[Path] = (), values: Values | None = None
+        self,
+        protocol: Path,
+        labware: Sequence[Path] = (),
+        values: Values | None = None,
+        files: Values | None = None,
     ) -> tuple[str, bool]:
         """Upload a protocol file.
 
@@ -72,6 +82,7 @@ class RobotClient:
             protocol: The file.
             labware: Files with custom labware definitions that it needs.
             values: Of its runtime parameters.
+            files: Of its runtime parameters, as :meth:`upload_data` named them.
 
         Returns:
             Its identifier, and whether the server knew the very same files: then it keeps the old
@@ -80,16 +91,30 @@ class RobotClient:
         Raises:
             OSError: A file cannot be read.
         """
-        files = [("files", (path.name, path.read_bytes())) for path in (protocol, *labware)]
-        data = {"runTimeParameterValues": json.dumps(dict(values))} if values else {}
+        sent = [("files", (path.name, path.read_bytes())) for path in (protocol, *labware)]
+        data = {name: json.dumps(given) for name, given in _parameters(values, files).items()}
         answer = self._send(
-            "POST", "/protocols", {"files": files, "data": data, "timeout": UPLOAD_TIMEOUT_S}
+            "POST", "/protocols", {"files": sent, "data": data, "timeout": UPLOAD_TIMEOUT_S}
         )
         return str(self._read(answer)["data"]["id"]), answer.status_code == 200
 
-    def analyse_again(self, protocol: str, values: Values | None = None) -> None:
+    def upload_data(self, path: Path) -> str:
+        """Upload a file for a runtime parameter (CSV); its identifier. Raises OSError."""
+        sent = {"file": (path.name, path.read_bytes())}
+        try:
+            answer = self._ask("POST", "/dataFiles", files=sent, timeout=UPLOAD_TIMEOUT_S)
+        except RobotRefused as error:
+            if error.status != 404:
+                raise
+            raise RobotError(
+                f"The software of the robot at {self.url} takes no files for runtime parameters; "
+                "8.0 and newer does. Update the robot."
+            ) from None
+        return str(answer["data"]["id"])
+
+    def analyse_again(self, protocol: str) -> None:
         """Begin a new analysis: the server keeps the old one of the same file whatever changed."""
-        asked = {"forceReAnalyze": True, "runTimeParameterValues": dict(values or {})}
+        asked = {"forceReAnalyze": True, "runTimeParameterValues": {}}
         path = f"/protocols/{protocol}/analyses"
         self._ask("POST", path, json={"data": asked}, timeout=UPLOAD_TIMEOUT_S)
 
@@ -118,16 +143,43 @@ class RobotClient:
             waiting(seconds)
             time.sleep(_ANALYSIS_POLL_S)
 
-    def create_run(self, protocol: str, values: Values | None = None) -> str:
-        """Make a run of an uploaded protocol; its identifier. Nothing moves yet."""
-        asked = {"protocolId": protocol}
-        more = {"runTimeParameterValues": dict(values)} if values else {}
-        answer = self._ask("POST", "/runs", json={"data": asked | more})
+    def create_run(
+        self,
+        protocol: str,
+        values: Values | None = None,
+        files: Values | None = None,
+        offsets: Sequence[Mapping[str, Any]] = (),
+    ) -> str:
+        """Make a run of an uploaded protocol; its identifier. Nothing moves yet.
+
+        Args:
+            protocol: Identifier.
+            values, files: As for :meth:`upload`.
+            offsets: Of its labware, as the server takes them.
+        """
+        asked = {"protocolId": protocol, "labwareOffsets": list(offsets)}
+        answer = self._ask("POST", "/runs", json={"data": asked | _parameters(values, files)})
         return str(answer["data"]["id"])
 
     def act(self, run: str, kind: str) -> None:
-        """``"play"``, ``"pause"`` or ``"stop"``."""
+        """``"play"``, ``"pause"``, ``"stop"`` or ``"resume-from-recovery"``."""
         self._ask("POST", f"/runs/{run}/actions", json={"data": {"actionType": kind}})
+
+    def try_again(self, run: str) -> str:
+        """Have the step done once more that a run in ``awaiting-recovery`` failed at.
+
+        Returns:
+            Identifier of the new command; when it is over, the run still waits.
+        """
+        found = self._ask("GET", f"/runs/{run}/commands", params={"pageLength": 1})
+        failed = (found.get("links") or {}).get("currentlyRecoveringFrom")
+        if not failed:
+            raise RobotError("The robot does not say which step failed; recover it in the App.")
+        known = self._ask("GET", str(failed["href"]))["data"]
+        again = {"commandType": known["commandType"], "params": known["params"], "intent": "fixit"}
+        path, failed_at = f"/runs/{run}/commands", {"failedCommandId": known["id"]}
+        answer = self._ask("POST", path, params=failed_at, json={"data": again})
+        return str(answer["data"]["id"])
 
     def current_run(self) -> str | None:
         """Identifier of the run that has the robot, ended or not; ``None`` without one."""
@@ -140,15 +192,42 @@ class RobotClient:
         found: Sequence[Mapping[str, Any]] = self._ask("GET", "/runs")["data"]
         return found
 
-    def stored_offsets(self) -> Sequence[Mapping[str, Any]]:
-        """The robot's own store of labware offsets (8.4 and newer); none on an older one."""
+    def stored_offsets(self) -> Sequence[Mapping[str, Any]] | None:
+        """The robot's own store of labware offsets (8.4 and newer); an older one has ``None``."""
         try:
             found: Sequence[Mapping[str, Any]] = self._ask("GET", "/labwareOffsets")["data"]
-        except RobotRefused:
-            return ()
+        except RobotRefused as error:
+            if error.status != 404:
+                raise
+            return None
         return found
 
-    def run(self, run: str) -> RunView:
+    def pipettes(self) -> Mapping[str, str]:
+        """Name of the pipette on each mount that has one (``"left"``, ``"right"``)."""
+        found = self._ask("GET", "/pipettes")
+        return {
+            mount: str(found[mount]["name"])
+            for mount in ("left", "right")
+            if (found.get(mount) or {}).get("name")
+        }
+
+    def modules(self) -> Sequence[Mapping[str, Any]]:
+        """The modules that are plugged in, as the robot tells them."""
+        found: Sequence[Mapping[str, Any]] = self._ask("GET", "/modules")["data"]
+        return found
+
+    def deck_configuration(self) -> Mapping[str, str]:
+        """Which fixture a Flex has in each cutout (``"cutoutA3"``: ``"trashBinAdapter"``); none
+        where it is not told."""
+        try:
+            told = self._ask("GET", "/deck_configuration")["data"]["cutoutFixtures"]
+        except RobotRefused as error:
+            if error.status != 404:
+                raise
+            return {}
+        return {str(one["cutoutId"]): str(one["cutoutFixtureId"]) for one in told}
+
+    def run(self, run: str) -> RunSnapshot:
         """A run as it stands."""
         return read_run(self._ask("GET", f"/runs/{run}")["data"])
 
@@ -159,6 +238,14 @@ class RobotClient:
         except RobotRefused:
             return ""
         return str(found[0]["name"]) if found else ""
+
+    def api_level(self, run: str) -> Sequence[int] | None:
+        """Of the protocol of a run; ``None`` where it cannot be told."""
+        try:
+            found = self._ask("GET", f"/protocols/{self.run(run).protocol}")["data"]["metadata"]
+            return [int(part) for part in str(found["apiLevel"]).split(".")]
+        except (RobotRefused, KeyError, ValueError):
+            return None
 
     def commands(self, run: str, cursor: int, length: int = PAGE) -> Page:
         """Commands from number ``cursor`` on; none where there are not so many."""
@@ -205,6 +292,33 @@ class RobotClient:
     def _ask(self, method: str, path: str, **options: Any) -> Any:
         return self._read(self._send(method, path, options))
 
+    def _refusal(self, answer: httpx.Response, asked: str) -> str:
+        said = _why(answer)
+        known = "Authorization" in self._http.headers
+        if answer.status_code == 401 or (answer.status_code == 403 and not known):
+            return (
+                f"Access to the robot at {self.url} is controlled, and it does not know who asks. "
+                f"Give its token as AEGIS_OT_ROBOT_TOKEN. It says: {said}"
+            )
+        if answer.status_code == 403:
+            return (
+                f"The token given for the robot at {self.url} does not allow this ({asked}). It "
+                f"says: {said}"
+            )
+        if answer.status_code == 451 or "Opentrons-User-Notes" in said:
+            return (
+                f"The robot at {self.url} wants a reason for this ({asked}). Give it as "
+                f"AEGIS_OT_ROBOT_REASON, beside AEGIS_OT_ROBOT_TOKEN. It says: {said}"
+            )
+        if answer.status_code == 409 and asked == "POST /runs":
+            return (
+                f"The robot at {self.url} takes no new run: another one has not ended. End it in "
+                f"the Opentrons App or on the robot's screen, then start again. It says: {said}"
+            )
+        if answer.status_code == 409:
+            return f"The robot cannot do that now. It says: {said}"
+        return f"The robot at {self.url} refused {asked}: {said}"
+
     def _read(self, answer: httpx.Response) -> Any:
         try:
             return answer.json()
@@ -226,11 +340,13 @@ class RobotClient:
                 "in the same network."
             ) from None
         if answer.is_error:
-            raise RobotRefused(
-                f"The robot at {self.url} refused {method} {path}: {_why(answer)}",
-                answer.status_code,
-            )
+            raise RobotRefused(self._refusal(answer, f"{method} {path}"), answer.status_code)
         return answer
+
+
+def _parameters(values: Values | None, files: Values | None) -> dict[str, dict[str, Any]]:
+    given = {"runTimeParameterValues": values, "runTimeParameterFiles": files}
+    return {name: dict(one) for name, one in given.items() if one}
 
 
 def _why(answer: httpx.Response) -> str:

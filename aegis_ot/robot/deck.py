@@ -8,14 +8,14 @@ import time
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, TypeVar
 
+from ..checking.nozzles import Layout, under
 from ..errors import RobotError, RobotRefused, RobotUnreachable
-from ..instrumentation import Pipette
+from ..instrumentation import PipetteInfo
 from ..vocabulary import WellRef
-from ..vocabulary.pipette_names import channels_of
+from ..vocabulary.pipette_names import channels_of, largest_volume
 from .client import RobotClient
 from .following import PATIENCE_S
-from .nozzles import Layout, under
-from .shapes import Labware, RunView
+from .shapes import Labware, RunSnapshot
 
 T = TypeVar("T")
 _AGAIN_S = 0.5
@@ -32,17 +32,17 @@ class Deck:
     def __init__(self, robot: RobotClient, run: str) -> None:
         self._robot = robot
         self._run = run
-        self._view: RunView | None = None
+        self._view: RunSnapshot | None = None
         self._definitions: dict[str, Mapping[str, Any]] = {}
         self._moved: dict[str, str] = {}
 
-    def pipette(self, identifier: str) -> Pipette | None:
+    def pipette(self, identifier: str) -> PipetteInfo | None:
         """The pipette of this identifier."""
         view = self._known(lambda v: any(p.id == identifier for p in v.pipettes))
         for pipette in view.pipettes:
             if pipette.id == identifier:
                 name = pipette.name
-                return Pipette(
+                return PipetteInfo(
                     pipette.mount, name, pipette.mount, channels_of(name), largest_volume(name)
                 )
         return None
@@ -122,7 +122,7 @@ class Deck:
         wells: Mapping[str, Mapping[str, Any]] = self._definition(labware).get("wells") or {}
         return wells.get(name) or {}
 
-    def _known(self, enough: Any) -> RunView:
+    def _known(self, enough: Any) -> RunSnapshot:
         if self._view is None or not enough(self._view):
             self._view = patiently(lambda: self._robot.run(self._run))
         return self._view
@@ -138,9 +138,3 @@ def patiently(ask: Callable[[], T], patience_s: float = PATIENCE_S) -> T:
             if time.monotonic() > until:
                 raise
             time.sleep(_AGAIN_S)
-
-
-def largest_volume(name: str) -> float:
-    """Of a pipette, µL, from its Opentrons name: ``p300_single_gen2``, ``flex_1channel_50``."""
-    found = re.search(r"^p(\d+)_", name) or re.search(r"_(\d+)$", name)
-    return float(found.group(1)) if found else 1000.0

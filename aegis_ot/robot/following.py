@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from ..errors import RobotRefused, RobotUnreachable
 from .client import PAGE, RobotClient
-from .shapes import DONE, Command, RunView
+from .shapes import DONE, Command, RunSnapshot
 
 POLL_S = 0.1
 """Sees the end of a command about 70 ms after it; the server feels nothing of it."""
@@ -34,7 +34,7 @@ class Completed:
 class StatusChanged:
     """The run's status is another one now."""
 
-    run: RunView
+    run: RunSnapshot
 
 
 @dataclass(frozen=True)
@@ -51,7 +51,18 @@ class Found:
     seconds: float
 
 
-Step = Started | Completed | StatusChanged | Lost | Found
+@dataclass(frozen=True)
+class Gone:
+    """The robot's server was restarted, and has lost the run.
+
+    Attributes:
+        run: As it was last seen.
+    """
+
+    run: RunSnapshot | None
+
+
+Step = Started | Completed | StatusChanged | Lost | Found | Gone
 
 
 def follow(
@@ -73,7 +84,7 @@ def follow(
 
     Raises:
         RobotUnreachable: The robot did not answer for ``patience_s``.
-        RobotRefused: The run is gone: the server keeps the last twenty.
+        RobotRefused: It never had the run, or does not let this program in.
     """
     follower = _Follower(robot, run)
     lost_at: float | None = None
@@ -81,7 +92,10 @@ def follow(
         try:
             steps = follower.look()
         except RobotRefused as error:
-            if error.status == 404:
+            if error.status == 404 and follower.view is not None:
+                yield Gone(follower.view)
+                return
+            if error.status in (401, 403, 404):
                 raise
             steps, trouble = [], str(error)
         except RobotUnreachable as error:
@@ -110,12 +124,17 @@ class _Follower:
         self._cursor = 0
         self._started = -1
         self._status = ""
+        self.view: RunSnapshot | None = None
         self.over = False
         self.behind = False
 
     def look(self) -> list[Step]:
         """What is new. The status is asked first: of an ended run all commands are there."""
         view = self._robot.run(self._run)
+        if view.lost:
+            self.over = True
+            return [Gone(self.view)]
+        self.view = view
         page = self._robot.commands(self._run, self._cursor)
         steps: list[Step] = []
         for command in page.commands:

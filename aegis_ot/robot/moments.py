@@ -11,8 +11,8 @@ import uuid
 from collections.abc import Callable
 from dataclasses import replace
 
-from ..runtime import SidecarLink
-from ..runtime.link import Captured
+from ..runtime import SidecarClient
+from ..runtime.sidecar_client import Acknowledgement
 from ..vocabulary import Keyframe, KeyframeKind
 from .shapes import Command
 
@@ -39,7 +39,7 @@ def moment_of_transit(command: Command) -> float | None:
     return moment if command.started is None else max(moment, command.started)
 
 
-class PastLink(SidecarLink):
+class PastLink(SidecarClient):
     """To a sidecar that is asked for frames of moments that are over.
 
     Attributes:
@@ -55,8 +55,8 @@ class PastLink(SidecarLink):
         self.moments: dict[int, float] = {}
         self.lost = 0
 
-    def keyframe(self, keyframe: Keyframe, timeout_s: float, ago_s: float = 0.0) -> Captured:
-        """As in :class:`SidecarLink`; one whose moment is out of reach goes as late."""
+    def keyframe(self, keyframe: Keyframe, timeout_s: float, ago_s: float = 0.0) -> Acknowledgement:
+        """As in :class:`SidecarClient`; one whose moment is out of reach goes as late."""
         moment = self.moments.get(keyframe.sequence)
         ago = 0.0 if moment is None else self._now() - moment
         if moment is None or not -REACH_S < ago < REACH_S:

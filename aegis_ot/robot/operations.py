@@ -9,34 +9,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from ..instrumentation import Event, EventKind, Operation, OperationKind, Pipette
+from ..checking.commands import KINDS
+from ..checking.nozzles import Layout, layout_of, whole_head
+from ..instrumentation import Event, EventKind, Operation, OperationKind, PipetteInfo
 from ..vocabulary import WellRef
 from .deck import Deck
-from .nozzles import Layout, layout_of, whole_head
 from .shapes import Command
 
-_KINDS = {
-    "pickUpTip": OperationKind.PICK_UP_TIP,
-    "dropTip": OperationKind.DROP_TIP,
-    "dropTipInPlace": OperationKind.DROP_TIP,
-    "unsafe/dropTipInPlace": OperationKind.DROP_TIP,
-    "aspirate": OperationKind.ASPIRATE,
-    "aspirateInPlace": OperationKind.ASPIRATE,
-    "aspirateWhileTracking": OperationKind.ASPIRATE,
-    "dispense": OperationKind.DISPENSE,
-    "dispenseInPlace": OperationKind.DISPENSE,
-    "dispenseWhileTracking": OperationKind.DISPENSE,
-    "blowout": OperationKind.BLOW_OUT,
-    "blowOutInPlace": OperationKind.BLOW_OUT,
-    "airGapInPlace": OperationKind.AIR_GAP,
-    "touchTip": OperationKind.TOUCH_TIP,
-    "moveToWell": OperationKind.MOVE,
-    "moveToAddressableArea": OperationKind.MOVE,
-    "moveToAddressableAreaForDropTip": OperationKind.MOVE,
-    "moveToCoordinates": OperationKind.MOVE,
-    "liquidProbe": OperationKind.MOVE,
-    "tryLiquidProbe": OperationKind.MOVE,
-}
 _PROBES = ("liquidProbe", "tryLiquidProbe")
 _NOT_FOUND = "liquidNotFound"
 _INSIDE_MM = -1.0
@@ -59,7 +38,7 @@ class OperationReader:
 
     def operation(self, command: Command) -> Operation | None:
         """What a pipette does by this command; ``None`` if it does nothing with tip or liquid."""
-        kind = _KINDS.get(command.kind)
+        kind = KINDS.get(command.kind)
         if kind is None:
             self._note(command)
             return None
@@ -82,7 +61,7 @@ class OperationReader:
             nozzles=layout.nozzles,
             wells=wells,
             disposal=disposal,
-            volume=_number(params.get("volume")),
+            volume=number_of(params.get("volume")),
             from_top=self._height(labware, well, params) if labware and well else None,
             in_place=in_place,
             call=command.kind,
@@ -144,7 +123,9 @@ class OperationReader:
             slot = place.get("slotName", "") if isinstance(place, Mapping) else ""
             self._deck.moved(str(params.get("labwareId", "")), str(slot))
 
-    def _disposal(self, pipette: Pipette, command: Command, labware: str, in_place: bool) -> bool:
+    def _disposal(
+        self, pipette: PipetteInfo, command: Command, labware: str, in_place: bool
+    ) -> bool:
         if in_place:
             return self._at_trash.get(pipette.key, False)
         area = str(command.params.get("addressableAreaName", ""))
@@ -155,7 +136,7 @@ class OperationReader:
     def _height(self, labware: str, well: str, params: Mapping[str, Any]) -> float:
         """Of the tip end over the top of the well, mm."""
         location: Mapping[str, Any] = params.get("wellLocation") or {}
-        z = _number((location.get("offset") or {}).get("z"))
+        z = number_of((location.get("offset") or {}).get("z"))
         origin = location.get("origin", "top")
         if origin == "top":
             return z
@@ -165,5 +146,5 @@ class OperationReader:
         return z - (depth if origin == "bottom" else depth / 2)
 
 
-def _number(value: Any) -> float:
+def number_of(value: Any) -> float:
     return float(value) if isinstance(value, (int, float)) else 0.0

@@ -3,41 +3,56 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from typing import Any
+from typing import Any, NamedTuple
 
-Place = tuple[str, str]
-"""Definition (``"opentrons/corning_96_wellplate_360ul_flat/2"``) and slot of a labware."""
+
+class Place(NamedTuple):
+    """A labware and where it stands, as far as an offset depends on it.
+
+    Attributes:
+        uri: Definition, ``"opentrons/corning_96_wellplate_360ul_flat/2"``.
+        slot: Of the deck, ``""`` off it.
+        module: Model of the module that it stands on, or ``""``.
+        under: Definitions of the labware below it (an adapter), from the top.
+    """
+
+    uri: str
+    slot: str
+    module: str = ""
+    under: tuple[str, ...] = ()
 
 
 def places_of(commands: Iterable[Mapping[str, Any]]) -> Iterator[Place]:
     """Where the labware of an analysis, or of a run, stands in turn; off the deck left out."""
-    slots: dict[str, str] = {}
-    uris: dict[str, str] = {}
+    known: dict[str, Place] = {}  # labware and modules; of a module the definition is empty
     for command in commands:
         kind, params = command.get("commandType"), command.get("params") or {}
         result = command.get("result") or {}
         if kind == "loadModule":
-            slots[str(result.get("moduleId"))] = slot_of(params.get("location"), slots)
+            slot = place_at(params.get("location"), known).slot
+            known[str(result.get("moduleId"))] = Place("", slot, str(params.get("model") or ""))
             continue
         if kind == "loadLabware":
             labware, where = str(result.get("labwareId")), params.get("location")
             definition = result.get("definition") or {}
             name = (definition.get("parameters") or {}).get("loadName") or params.get("loadName")
             named = (definition.get(part) or params.get(part) for part in ("namespace", "version"))
-            uris[labware] = "{0}/{2}/{1}".format(*named, name)
-        elif kind == "moveLabware":
+            uri = "{0}/{2}/{1}".format(*named, name)
+        elif kind == "moveLabware" and str(params.get("labwareId")) in known:
             labware, where = str(params.get("labwareId")), params.get("newLocation")
+            uri = known[labware].uri
         else:
             continue
-        slots[labware] = slot_of(where, slots)
-        if slots[labware] and labware in uris:
-            yield uris[labware], slots[labware]
+        known[labware] = place_at(where, known)._replace(uri=uri)
+        if known[labware].slot:
+            yield known[labware]
 
 
-def slot_of(location: Any, slots: Mapping[str, str]) -> str:
-    """Where a location is in the end: a slot, or what stands in it."""
+def place_at(location: Any, known: Mapping[str, Place]) -> Place:
+    """A location: a slot, or on what stands in it; its definition is empty."""
     if not isinstance(location, Mapping):
-        return ""
-    on = location.get("moduleId") or location.get("labwareId")
-    named = location.get("slotName") or location.get("addressableAreaName") or ""
-    return slots.get(str(on), "") if on else str(named)
+        return Place("", "")
+    on = known.get(str(location.get("moduleId") or location.get("labwareId") or ""))
+    if on is not None:
+        return on._replace(uri="", under=(on.uri, *on.under) if on.uri else ())
+    return Place("", str(location.get("slotName") or location.get("addressableAreaName") or ""))

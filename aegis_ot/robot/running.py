@@ -5,13 +5,26 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import Any, Protocol
 
+from ..account.overview import is_not_as_rehearsed
 from ..errors import LinkError, RobotError
-from .client import RobotClient, Values
-from .following import PATIENCE_S, POLL_S, Completed, Found, Lost, Started, StatusChanged, follow
-from .shapes import OWN_WORDS, PAUSED, Analysis, Command, RunView
+from .client import RobotClient
+from .following import (
+    PATIENCE_S,
+    POLL_S,
+    Completed,
+    Found,
+    Gone,
+    Lost,
+    Started,
+    StatusChanged,
+    follow,
+)
+from .held_liquid import HeldLiquid
+from .preparing import Inputs
+from .recovery import RECOVERING, Recovery
+from .shapes import OWN_WORDS, PAUSED, Analysis, Command, RunSnapshot
 from .verdicts import VerdictReader, WellVerdict, unjudged
 
 VERDICTS_EVERY_S = 0.5
@@ -42,14 +55,16 @@ class Screen(Protocol):
     def says(self, text: str) -> None:
         """A comment of the guard, or trouble with the connection."""
 
-    def waits(self, text: str) -> None:
-        """The run waits for a person; ``""``: it goes on."""
+    def waits(self, text: str, recovery: bool = False) -> None:
+        """The run waits for a person, who has to recover it from a step that failed, or not;
+        ``""``: it goes on."""
 
     def judged(self, verdict: WellVerdict) -> None:
         """A verdict is in."""
 
     def asked(self) -> str:
-        """``"play"``, ``"pause"``, ``"stop"`` as the person wants it now, or ``""``."""
+        """``"play"``, ``"pause"``, ``"stop"`` or ``"retry"`` (the step that failed) as the person
+        wants it now, or ``""``."""
 
 
 @dataclass
@@ -88,37 +103,10 @@ class RobotRun:
     watched_as: str = ""
     unheard: str = ""
 
-
-@dataclass(frozen=True)
-class Inputs:
-    """What a protocol is run with: files of custom labware, values of runtime parameters."""
-
-    labware: tuple[Path, ...] = ()
-    values: Values = field(default_factory=dict)
-
-
-def analyse(
-    robot: RobotClient,
-    protocol: Path,
-    screen: Screen,
-    timeout_s: float,
-    inputs: Inputs | None = None,
-) -> tuple[str, Analysis]:
-    """Upload a protocol and have it analysed anew, as the robot is set now.
-
-    Returns:
-        Its identifier on the robot, and the analysis.
-
-    Raises:
-        RobotError: The robot cannot be reached, refuses a file, or takes too long.
-        OSError: A file cannot be read.
-    """
-    inputs = inputs or Inputs()
-    identifier, was_known = robot.upload(protocol, inputs.labware, inputs.values)
-    if was_known and not inputs.values:  # values make a new analysis by themselves
-        robot.analysis(identifier, timeout_s, screen.analysing)
-        robot.analyse_again(identifier)
-    return identifier, robot.analysis(identifier, timeout_s, screen.analysing)
+    @property
+    def not_as_rehearsed(self) -> bool:
+        """Whether the robot did otherwise than what Layer 1 judged, as the sidecar was told."""
+        return self.overview is not None and is_not_as_rehearsed(self.overview)
 
 
 def run_analysed(
@@ -140,14 +128,15 @@ def run_analysed(
         run: Filled in as it goes on.
         screen: Shows it, and is asked what the person wants.
         verdicts: Of the run's sidecar.
-        inputs: The values that it was analysed with.
+        inputs: What it was analysed with, and the offsets of its labware.
         poll_s, patience_s: As for :func:`~.following.follow`.
 
     Raises:
         RobotError: The robot refuses the start, or is lost for too long. The run then goes on, or
             waits, without this program.
     """
-    run.id = robot.create_run(identifier, (inputs or Inputs()).values)
+    inputs = inputs or Inputs()
+    run.id = robot.create_run(identifier, inputs.values, inputs.uploaded, inputs.offsets)
     driver = RunDriver(robot, run, screen, verdicts)
     if verdicts is not None:
         verdicts.begins()
@@ -190,6 +179,10 @@ class RunDriver:
         self._next_look = 0.0
         self._trouble = ""
         self._waiting_for = ""
+        self._failed: Command | None = None
+        self._held = HeldLiquid()
+        self.recovery = Recovery(robot, run.id)
+        self.failed_again: Callable[[], None] = lambda: None
 
     def take(self, step: Any) -> None:
         screen = self._screen
@@ -198,19 +191,24 @@ class RunDriver:
         elif isinstance(step, Completed):
             self._run.commands += 1
             screen.done(step.command)
+            self._done(step.command)
         elif isinstance(step, StatusChanged):
             self._status(step.run)
         elif isinstance(step, Lost):
-            screen.says(f"{step.reason} The run goes on there; trying again.")
+            screen.says(
+                f"{step.reason} Trying again; if only the network is away, the run goes on."
+            )
         elif isinstance(step, Found):
             screen.says(f"The robot answers again, after {step.seconds:.0f} s.")
+        elif isinstance(step, Gone):
+            self._gone(step.run)
 
     def look_around(self) -> None:
         """Do what the person asks; see which verdicts are in."""
         wanted = self._screen.asked()
         if wanted:
             try:
-                self._robot.act(self._run.id, wanted)
+                self.recovery.act(wanted)
             except RobotError as error:
                 self._screen.says(str(error))
         if self._now() >= self._next_look:
@@ -254,21 +252,59 @@ class RunDriver:
         for number, well in self._verdicts.open.items():
             self._judged(WellVerdict(well, unjudged(self._run.id, number, NO_VERDICT)))
 
+    def _done(self, command: Command) -> None:
+        self._held.done(command)
+        if command.error:
+            self._failed = command
+        try:
+            again = self.recovery.failed_again(command)
+        except RobotError as error:
+            self._screen.says(str(error))
+        else:
+            if again:
+                self._screen.waits(f"A step failed ({self.failed_step()}).", True)
+                self.failed_again()
+
+    def _gone(self, view: RunSnapshot | None) -> None:
+        """The robot's server has lost the run: say what a person finds, and close it."""
+        told = (
+            "The robot's server was restarted: this run is gone and cannot be resumed. "
+            f"{self._held.told(view)}"
+        ).rstrip()
+        self._run.status, self._run.errors = "failed", (told,)
+        self._screen.waits("")
+        if self._verdicts is not None:
+            try:
+                self._verdicts.close_run("failed", told)
+            except LinkError as error:
+                self._screen.says(str(error))
+
+    def failed_step(self) -> str:
+        """The last step that failed, and why: ``"aspirate A1: overpressure"``."""
+        if self._failed is None:
+            return "The robot waits to be recovered"
+        what = " ".join(f"{self._failed.kind} {self._failed.params.get('wellName') or ''}".split())
+        return f"{what}: {self._failed.error.rstrip('.')}"
+
     def _began(self, command: Command) -> None:
+        self._held.began(command)
         if command.kind == "waitForResume":
             self._waiting_for = command.message
         elif command.is_guards:
             self._screen.says(command.message[len(OWN_WORDS) :])
         self._screen.doing(command)
 
-    def _status(self, view: RunView) -> None:
+    def _status(self, view: RunSnapshot) -> None:
         before, self._run.status = self._run.status, view.status
+        self.recovery.status = view.status
         self._run.errors = view.errors
         if view.status in PAUSED:
             words = _DOOR if before in _AT_THE_DOOR else "The run is paused."
             text = self._waiting_for or _PAUSE_WORDS.get(view.status, words)
+            if view.status == RECOVERING:
+                text = f"A step failed ({self.failed_step()})."
             self._run.pauses.append(text)
-            self._screen.waits(text)
+            self._screen.waits(text, view.status == RECOVERING)
         elif view.status != "pause-requested":
             self._waiting_for = ""
             self._screen.waits("")
@@ -304,5 +340,5 @@ _DOOR = "The robot's door was open; the run waits to be resumed."
 _AT_THE_DOOR = ("blocked-by-open-door", "awaiting-recovery-blocked-by-open-door")
 _PAUSE_WORDS = {
     "blocked-by-open-door": "The robot's door is open.",
-    "awaiting-recovery": "A command failed; the robot waits for a person to recover from it.",
+    "awaiting-recovery-blocked-by-open-door": "The robot's door is open.",
 }

@@ -7,7 +7,8 @@ from dataclasses import dataclass, field
 from datetime import datetime, timezone
 from typing import Any
 
-from .places import places_of
+from .needs import Needs, needs_of
+from .places import Place, places_of
 
 ENDED = frozenset({"succeeded", "failed", "stopped"})
 """Run statuses after which nothing moves."""
@@ -99,7 +100,7 @@ class Page:
 
 
 @dataclass(frozen=True)
-class RunView:
+class RunSnapshot:
     """A run as its server shows it.
 
     Attributes:
@@ -110,6 +111,7 @@ class RunView:
         pipettes, labware: Loaded so far.
         actions: ``"play"``, ``"pause"``, ``"stop"``: what people and programs did.
         liquids: Names of the liquids that it declares, by identifier.
+        lost: Whether the server has lost what it was: it was restarted meanwhile.
     """
 
     id: str
@@ -120,6 +122,7 @@ class RunView:
     labware: tuple[Labware, ...] = ()
     actions: tuple[str, ...] = ()
     liquids: Mapping[str, str] = field(default_factory=dict)
+    lost: bool = False
 
     @property
     def ended(self) -> bool:
@@ -138,7 +141,11 @@ class Analysis:
         errors: What ended it, in words.
         kinds: Types of its commands, in order.
         guard_words: Comments of a guard, without their mark.
-        places: Definition and slot of the labware, wherever it stands in turn.
+        places: Of the labware, wherever it stands in turn.
+        needs: What else it uses on the deck.
+        flex: Whether it is for a Flex.
+        parameters: Names of its runtime parameters.
+        files_lacking: Those that need a file and were given none.
     """
 
     id: str
@@ -147,12 +154,17 @@ class Analysis:
     errors: tuple[str, ...] = ()
     kinds: tuple[str, ...] = ()
     guard_words: tuple[str, ...] = field(default=())
-    places: tuple[tuple[str, str], ...] = ()
+    places: tuple[Place, ...] = ()
+    needs: Needs = field(default=Needs())
+    flex: bool = False
+    parameters: tuple[str, ...] = ()
+    files_lacking: tuple[str, ...] = ()
 
 
 def read_analysis(data: Mapping[str, Any]) -> Analysis:
     """From ``/protocols/{id}/analyses``."""
     commands = [read_command(n, c) for n, c in enumerate(data.get("commands") or ())]
+    parameters = data.get("runTimeParameters") or ()
     return Analysis(
         id=str(data.get("id", "")),
         done=data.get("status") == "completed",
@@ -161,12 +173,20 @@ def read_analysis(data: Mapping[str, Any]) -> Analysis:
         kinds=tuple(command.kind for command in commands),
         guard_words=tuple(c.message[len(OWN_WORDS) :] for c in commands if c.is_guards),
         places=tuple(places_of(data.get("commands") or ())),
+        needs=needs_of(data.get("commands") or ()),
+        flex=str(data.get("robotType", "")).startswith("OT-3"),
+        parameters=tuple(str(one.get("variableName", "")) for one in parameters),
+        files_lacking=tuple(
+            str(one.get("variableName", ""))
+            for one in parameters
+            if one.get("type") == "csv_file" and not one.get("file")
+        ),
     )
 
 
-def read_run(data: Mapping[str, Any]) -> RunView:
+def read_run(data: Mapping[str, Any]) -> RunSnapshot:
     """From ``/runs/{id}``."""
-    return RunView(
+    return RunSnapshot(
         id=str(data["id"]),
         status=str(data.get("status", "")),
         protocol=str(data.get("protocolId") or ""),
@@ -181,6 +201,7 @@ def read_run(data: Mapping[str, Any]) -> RunView:
             str(known["id"]): str(known.get("displayName", ""))
             for known in data.get("liquids") or ()
         },
+        lost=data.get("ok") is False,
     )
 
 

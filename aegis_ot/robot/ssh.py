@@ -16,7 +16,11 @@ _HELP = "Opentrons' help: 'Setting up SSH access'"
 _CHANGED = "REMOTE HOST IDENTIFICATION HAS CHANGED"
 _ADVICE = (
     ("Could not resolve hostname", "Give its number as the Opentrons App shows it."),
-    ("Connection refused", f"ssh is not switched on there, or listens elsewhere ({_HELP})."),
+    (
+        "Connection refused",
+        f"ssh is not switched on there, or listens elsewhere ({_HELP}). A file of aegis-ot wrap "
+        "needs no ssh; where access to the robot is controlled, it is the only way.",
+    ),
     ("timed out", "Is it switched on, and in the same network?"),
     ("No route to host", "Is it switched on, and in the same network?"),
     ("Network is unreachable", "Is it switched on, and in the same network?"),

@@ -140,6 +140,15 @@ class VerdictReader:
             return unjudged(self.run, trajectory["trajectory"], str(reason))
         return None
 
+    def close_run(self, outcome: str, detail: str) -> None:
+        """Tell how the run ended, where its guard cannot any more. Raises LinkError."""
+        if self._find():
+            told = {"outcome": outcome, "detail": detail[:2000]}
+            if self._get(f"/v1/runs/{self.run}/close", told).is_error:
+                raise SidecarGarbled(
+                    f"The sidecar at {self.url} did not take down that the run is over; update it."
+                )
+
     def overview(self) -> Mapping[str, Any] | None:
         """All that the sidecar knows of the run, ``None`` if it never came there."""
         return self._ask(f"/v1/runs/{self.run}") if self._find() else None
@@ -178,9 +187,9 @@ class VerdictReader:
             self.run, self._is_sure = str(row["run"]), bool(own)
         return bool(self.run)
 
-    def _get(self, path: str) -> httpx.Response:
+    def _get(self, path: str, told: Mapping[str, Any] | None = None) -> httpx.Response:
         try:
-            answer = self._http.get(path)
+            answer = self._http.request("GET" if told is None else "POST", path, json=told)
         except httpx.HTTPError as error:
             raise SidecarUnreachable(
                 f"The sidecar at {self.url} cannot be reached ({error}). Check that it runs and "

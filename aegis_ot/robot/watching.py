@@ -8,8 +8,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from .._version import __version__
+from ..account import RECOVERY
 from ..errors import LinkError, RobotError, RobotRefused, RobotUnreachable
-from ..runtime.courier import Courier
+from ..runtime.keyframe_sender import KeyframeSender
 from ..runtime.steps import Abandon
 from ..vocabulary import Keyframe, KeyframeKind, Outcome
 from .client import RobotClient
@@ -19,6 +20,7 @@ from .following import POLL_S, Completed, Found, Lost, Started, StatusChanged, f
 from .listening import RunListener, Timed
 from .moments import PastLink
 from .page_pauses import PagePauses
+from .recovery import RECOVERING
 from .running import (
     LAST_VERDICTS_S,
     LOST_SIDECAR_S,
@@ -29,7 +31,7 @@ from .running import (
     Screen,
     tell_open,
 )
-from .shapes import RunView
+from .shapes import ENDED, PAUSED, RunSnapshot
 from .verdicts import VerdictReader, WellVerdict, unjudged
 
 LOSSES = (
@@ -85,7 +87,7 @@ def await_run(
         rest(0.5)
 
 
-def _is_driven(robot: RobotClient, view: RunView) -> bool:
+def _is_driven(robot: RobotClient, view: RunSnapshot) -> bool:
     """Whether a program sends this run its commands one by one: it has no protocol."""
     return view.status == "idle" and not view.protocol and robot.commands(view.id, 0).total > 0
 
@@ -116,7 +118,7 @@ def watch_run(
         LinkError: The sidecar is not there at the beginning.
     """
     driver = RunDriver(robot, run, screen)
-    watch = _Watch(robot, run, sidecar, screen, policies or WatchPolicies(), driver.paused_because)
+    watch = _Watch(robot, run, sidecar, screen, policies or WatchPolicies(), driver)
     watch.begin()
     if verdicts is not None:
         verdicts.run = run.watched_as
@@ -154,17 +156,19 @@ class _Watch:
         sidecar: PastLink,
         screen: Screen,
         policies: WatchPolicies,
-        paused: Callable[[str], None],
+        driver: RunDriver,
     ) -> None:
-        self._paused = paused
+        self._paused = driver.paused_because
+        self._failed_step = driver.failed_step
+        driver.failed_again = self._recover
         self._robot = robot
         self._run = run
         self._link = sidecar
         self._screen = screen
         self._policies = policies
         self.name = name_of_watch(run.id)
-        self._courier = Courier(sidecar, self.name, self._about(), time.sleep)
-        self._pauses = PagePauses(self._courier, lambda action: robot.act(run.id, action))
+        self._sender = KeyframeSender(sidecar, self.name, self._about(), time.sleep)
+        self._pauses = PagePauses(self._sender, driver.recovery.act)
         self._clock = WatchedClock(robot.clock, screen.says)
         self._listener = RunListener(Deck(robot, run.id), self.name, self._clock)
         self._places: dict[int, str] = {}
@@ -174,12 +178,12 @@ class _Watch:
         self._heard_at = 0
 
     def begin(self) -> None:
-        self._courier.register(self._policies.capture_timeout_s)
-        self._run.watched_as = self._courier.run
-        if self._courier.run != self.name:
+        self._sender.register(self._policies.capture_timeout_s)
+        self._run.watched_as = self._sender.run
+        if self._sender.run != self.name:
             self._screen.says(
                 f"This run was watched before; what is seen from now on is kept apart, as "
-                f"{self._courier.run!r}."
+                f"{self._sender.run!r}."
             )
         self._clock.look()
 
@@ -199,20 +203,25 @@ class _Watch:
             self._lost = False
             self._clock.look()
         elif isinstance(step, StatusChanged):
-            if step.run.status not in ("paused", "pause-requested"):
+            if step.run.status == RECOVERING:
+                self._recover()
+            elif step.run.status not in PAUSED and step.run.status != "pause-requested":
                 self._pauses.is_over()
             self._tell(self._listener.status(step.run.status))
+
+    def _recover(self) -> None:
+        self._pauses.begin(self._heard_at, RECOVERY, self._failed_step())
 
     def look_around(self) -> None:
         """Between two looks at the run: the clocks, and the verdict that is due first."""
         self._clock.look_around(followed=not self._lost)
         self._pauses.look_around()
         self._obey()
-        if not self._awaited or self._courier.away:
+        if not self._awaited or self._sender.away:
             return
         number = self._awaited[0]
         try:
-            verdict = self._courier.verdict(number)
+            verdict = self._sender.verdict(number)
         except LinkError as error:
             self._lose(error)
             return
@@ -231,7 +240,7 @@ class _Watch:
         """The run is over: wait for its last verdicts while the sidecar works on them."""
         heard, left, told = time.monotonic(), len(self._awaited), False
         while self._awaited:
-            away = not self._courier.look(self._policies.capture_timeout_s)
+            away = not self._sender.look(self._policies.capture_timeout_s)
             self.look_around()
             now = time.monotonic()
             if len(self._awaited) < left:
@@ -251,15 +260,16 @@ class _Watch:
             known = self._run.verdicts[number] = WellVerdict(self._place(number), verdict)
             self._screen.judged(known)
         status = self._run.status
-        outcome = status if status in ("succeeded", "failed", "stopped") else "failed"
+        outcome = status if status in ENDED else "failed"
         detail = "" if outcome == status else "The run was followed no longer."
+        detail = " ".join(self._run.errors) or detail
         given_up = self._listener.break_off(f"the run {outcome}")
         try:
-            self._courier.finish(outcome, detail, given_up, self._policies.capture_timeout_s)
+            self._sender.finish(outcome, detail, given_up, self._policies.capture_timeout_s)
         except LinkError as error:
             self._screen.says(str(error))
         finally:
-            self._courier.close()
+            self._sender.close()
 
     def _place(self, number: int) -> str:
         return self._places.get(number) or f"delivery {number}"
@@ -267,37 +277,37 @@ class _Watch:
     def _tell(self, heard: list[Abandon | Timed]) -> None:
         for one in heard:
             if isinstance(one, Abandon):
-                self._courier.abandon(one.trajectory, one.reason)
+                self._sender.abandon(one.trajectory, one.reason)
             else:
                 self._send(one.keyframe, one.moment)
 
     # The sidecar
 
     def _send(self, keyframe: Keyframe, moment: float) -> None:
-        courier = self._courier
+        sender = self._sender
         self._link.moments[keyframe.sequence] = moment
         if keyframe.destinations:
             self._places[keyframe.trajectory] = str(keyframe.destinations[0])
-        courier.offer(keyframe)
+        sender.offer(keyframe)
         self._heard_at = keyframe.trajectory
         if keyframe.kind is KeyframeKind.POST_DISPENSE:
             self._awaited.append(keyframe.trajectory)
-        if courier.away and not courier.look(self._policies.capture_timeout_s):
-            courier.move_on()
+        if sender.away and not sender.look(self._policies.capture_timeout_s):
+            sender.move_on()
             return
         try:
-            courier.deliver(self._policies.capture_timeout_s)
+            sender.deliver(self._policies.capture_timeout_s)
         except LinkError as error:
             self._lose(error)
 
     def _lose(self, error: LinkError) -> None:
         self._screen.says(f"{error} Deliveries are not watched until it is back.")
-        self._courier.give_up()
+        self._sender.give_up()
         self._apply(self._policies.on_link_loss, "the sidecar is away")
 
     def _obey(self) -> None:
         """Do what a person told the robot on the sidecar's page; heard with its answers."""
-        order = self._courier.order()
+        order = self._sender.order()
         if order is not None:
             self._apply(order.action, f"{order.by} says so", self._heard_at, "operator")
 

@@ -8,7 +8,10 @@ import zipfile
 from pathlib import Path
 
 from .._version import __version__
-from .bundle import PACKAGE, robot_half, rules_folder
+from .bundle import PACKAGE, ROOT, robot_half
+
+_ALSO = (f"{ROOT}.planted",)
+"""What the protocol of a qualification imports besides the guard."""
 
 _METADATA = f"""Metadata-Version: 2.1
 Name: aegis-ot
@@ -31,11 +34,7 @@ def write_wheel(folder: Path, package: Path = PACKAGE) -> Path:
         folder: Where.
         package: Folder of the package that it is made of.
     """
-    files = {f"aegis_ot/{name}": text for name, text in sorted(robot_half(package))}
-    rules = rules_folder(package)
-    for path in sorted(rules.rglob("*.json")):
-        name = f"aegis_ot/rules/{path.relative_to(rules).as_posix()}"
-        files[name] = path.read_text(encoding="utf-8")
+    files = {f"aegis_ot/{name}": text for name, text in sorted(robot_half(package, _ALSO))}
     info = f"aegis_ot-{__version__}.dist-info"
     files |= {f"{info}/METADATA": _METADATA, f"{info}/WHEEL": _WHEEL}
     record = [f"{name},{_hash(text)},{len(text.encode())}" for name, text in files.items()]

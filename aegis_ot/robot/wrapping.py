@@ -56,7 +56,7 @@ def wrap(
         raise ConfigurationError(f"The protocol is no Python: {error}.") from None
     if not any(isinstance(node, ast.FunctionDef) and node.name == "run" for node in tree.body):
         raise ConfigurationError("The protocol defines no function run at its top level.")
-    bundle = bundle or make_bundle()
+    bundle = bundle or make_bundle(also=sorted(_modules_beside_the_guard(tree)))
     lines = text.splitlines(keepends=True)
     guarded = _rename_imports(tree, lines, bundle.name)
     if guarded and settings:
@@ -71,6 +71,13 @@ def wrap(
         given = "".join(f", {name}={value!r}" for name, value in (settings or {}).items())
         lines.append(f"run = __import__({bundle.name!r}).guard(run{given})\n")
     return Wrapped("".join(lines), moved, guarded, bundle)
+
+
+def _modules_beside_the_guard(tree: ast.AST) -> set[str]:
+    """Modules of this package that a protocol imports by name."""
+    froms = [node for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)]
+    names = [node.module or "" for node in froms if node.level == 0]
+    return {name for name in names if name.startswith(f"{ROOT}.")}
 
 
 def _rename_imports(tree: ast.AST, lines: list[str], name: str) -> bool:

@@ -4,11 +4,11 @@ Standard library and ``opentrons`` only; see ``docs/reference/keyframes.md``.
 """
 
 from .descriptions import about_layer1
-from .link import SidecarLink
-from .objecting import Bystander, Hands
+from .objecting import Bystander, RunControl
 from .planner import Planner
 from .recovering import TipKnowledge
 from .rejection import tell_of_rejection
+from .sidecar_client import SidecarClient
 from .spare_tips import TipForecast
 from .summary import WatchSummary
 from .tracker import Tracker
@@ -16,9 +16,9 @@ from .watch import Watcher
 
 __all__ = [
     "Bystander",
-    "Hands",
     "Planner",
-    "SidecarLink",
+    "RunControl",
+    "SidecarClient",
     "TipForecast",
     "TipKnowledge",
     "Tracker",

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from ..instrumentation import Operation, OperationKind
-from .hand import Hand
+from .pipette_state import PipetteState
 from .steps import Trajectory
 
 EXPELLING = (OperationKind.DISPENSE, OperationKind.BLOW_OUT)
@@ -17,7 +17,7 @@ class Awaiting:
     def __init__(self) -> None:
         self._of: dict[str, list[Trajectory]] = {}
 
-    def add(self, hand: Hand, trajectory: Trajectory) -> None:
+    def add(self, hand: PipetteState, trajectory: Trajectory) -> None:
         """The last keyframe of a delivery of this pipette was taken."""
         self._of.setdefault(hand.pipette.key, []).append(trajectory)
 
@@ -29,7 +29,7 @@ class Awaiting:
         """Those that were delivered into this labware."""
         return [trajectory for trajectory in self.all() if is_on(trajectory, labware)]
 
-    def due_at(self, hand: Hand, operation: Operation) -> list[Trajectory]:
+    def due_at(self, hand: PipetteState, operation: Operation) -> list[Trajectory]:
         """Those whose failure ``operation`` would spread or hide."""
         ends_tip = operation.kind is OperationKind.DROP_TIP
         expels = operation.disposal and operation.kind in EXPELLING

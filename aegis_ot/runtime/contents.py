@@ -13,7 +13,7 @@ TRACE_UL = 1e-3
 """Less than this is rounding, not liquid, µL."""
 
 
-class Layer(NamedTuple):
+class DrawnLayer(NamedTuple):
     """One draw.
 
     Attributes:
@@ -33,7 +33,7 @@ class Contents:
     """The layers in the tips of one pipette (all its tips hold the same)."""
 
     def __init__(self) -> None:
-        self._layers: list[Layer] = []
+        self._layers: list[DrawnLayer] = []
 
     @property
     def liquid(self) -> float:
@@ -56,16 +56,16 @@ class Contents:
         said = {layer.found for layer in self._layers if layer.liquid}
         return said.pop() if len(said) == 1 else ()
 
-    def draw(self, layer: Layer) -> None:
+    def draw(self, layer: DrawnLayer) -> None:
         """Take in one layer."""
         if layer.volume > 0:
             self._layers.append(layer)
 
-    def peek(self, volume: float | None = None) -> tuple[Layer, ...]:
+    def peek(self, volume: float | None = None) -> tuple[DrawnLayer, ...]:
         """What would leave if ``volume`` µL were dispensed; everything for ``None``."""
         return tuple(expel(list(self._layers), math.inf if volume is None else volume))
 
-    def expel(self, volume: float | None = None) -> tuple[Layer, ...]:
+    def expel(self, volume: float | None = None) -> tuple[DrawnLayer, ...]:
         """Let ``volume`` µL leave and say what it was; everything for ``None``."""
         leaving = expel(self._layers, math.inf if volume is None else volume)
         if not self.holds_liquid and any(layer.liquid for layer in self._layers):
@@ -77,11 +77,11 @@ class Contents:
         self._layers.clear()
 
 
-def liquid_of(layers: Iterable[Layer]) -> float:
+def liquid_of(layers: Iterable[DrawnLayer]) -> float:
     """Liquid in these layers, µL."""
     return float(sum(layer.volume for layer in layers if layer.liquid))
 
 
-def sources_of(layers: Iterable[Layer]) -> tuple[WellRef, ...]:
+def sources_of(layers: Iterable[DrawnLayer]) -> tuple[WellRef, ...]:
     """Wells whose liquid is in these layers, each once."""
     return tuple(dict.fromkeys(well for layer in layers for well in layer.sources))

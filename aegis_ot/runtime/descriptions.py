@@ -42,12 +42,22 @@ def about_run(protocol: Any, run: str, file_name: str, simulating: bool) -> dict
         "run": run,
         "protocol": PurePath(file_name).name,
         "robot": str(getattr(core, "robot_type", "")),
-        "robot_name": platform.node()[:200],
+        "robot_name": (platform.node() if simulating else _robot_name())[:200],
         "api_level": str(getattr(protocol, "api_version", "")),
         "simulated": simulating,
         "started": time.time(),
         "package": __version__,
     }
+
+
+def _robot_name() -> str:
+    """As the robot's own server and the App call it; the machine's name where that is not told."""
+    try:
+        from opentrons.config import name
+
+        return str(name())
+    except Exception:  # it asks the system, which may fail for a moment
+        return platform.node()
 
 
 def about_guard(settings: Settings) -> dict[str, Any]:

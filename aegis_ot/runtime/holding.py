@@ -10,22 +10,25 @@ from ..errors import LinkError, RunAborted
 from ..http_client import SLICE_S, CheckStop
 from ..instrumentation import Operation
 from ..settings import Settings
-from ..vocabulary import Gate, Outcome, Verdict, one_line, unobserved
-from .courier import Courier
+from ..vocabulary import Outcome, Verdict, one_line, unobserved
+from .cancellation import CancellationToken
 from .descriptions import tell_unobserved, tell_verdict
-from .link import SidecarLink
-from .linkloss import LinkLoss
+from .keyframe_sender import KeyframeSender
+from .link_loss import LinkLossPolicy
 from .operator import LONGEST, Operator, no_news
 from .page_answers import PageAnswers, act_on_current_run
-from .recovering import Recovery
-from .runstate import RunState, can_be_resumed
+from .recovering import NO_RECOVERY, RunRecoveries
+from .run_state import RunState, can_be_resumed
+from .sidecar_client import SidecarClient
 from .steps import Hold
-from .stopping import Waits
 from .summary import WatchSummary
 
 _STOP_S = 5.0
 """How long the robot's server may take to stop the run that it was told to stop, s."""
 
+
+LOST, TIMEOUT = "lost by the sidecar", "timeout"
+"""Why there is no verdict, where the policy has not been asked yet."""
 
 _STRICTNESS = (None, "continue", "pause", "abort")
 
@@ -34,7 +37,7 @@ class Holding:
     """The holds of one run.
 
     Args:
-        courier: Speaks to the sidecar.
+        sender: Speaks to the sidecar.
         link_loss: What to do when it cannot.
         settings: Time limits and policies.
         operator: Told of bad verdicts.
@@ -46,19 +49,19 @@ class Holding:
 
     def __init__(
         self,
-        courier: Courier,
-        link_loss: LinkLoss,
+        sender: KeyframeSender,
+        link_loss: LinkLossPolicy,
         settings: Settings,
         operator: Operator,
         state: RunState,
-        waits: Waits,
+        waits: CancellationToken,
         result: WatchSummary,
-        link: Callable[[CheckStop], SidecarLink],
-        recovery: Recovery | None = None,
+        link: Callable[[CheckStop], SidecarClient],
+        recovery: RunRecoveries | None = None,
     ) -> None:
         self._recovery = recovery
         self._link = link
-        self._courier = courier
+        self._sender = sender
         self._link_loss = link_loss
         self._settings = settings
         self._operator = operator
@@ -89,19 +92,19 @@ class Holding:
 
     def _await(self, number: int, deadline: float) -> tuple[Verdict | None, str]:
         """Poll in short waits until the verdict is in; else why there is none."""
-        courier = self._courier
+        sender = self._sender
         while True:
-            if number in courier.forgotten:
-                return None, "lost by the sidecar"
-            if number in courier.stale:
+            if number in sender.forgotten:
+                return None, LOST
+            if number in sender.stale:
                 return None, "late keyframes"
-            if courier.away:
+            if sender.away:
                 return None, "link lost"
             self._waits.check()
             asked = time.monotonic()
             verdict = None
             try:
-                verdict = courier.verdict(number)
+                verdict = sender.verdict(number)
                 deadline += self.obey(number)
             except LinkError:
                 # The same patience as for a keyframe.
@@ -113,7 +116,7 @@ class Holding:
             if self._state.paused:
                 deadline += time.monotonic() - asked  # an operator's pause is nobody's delay
             if time.monotonic() >= deadline:
-                return None, "timeout"
+                return None, TIMEOUT
 
     def _resolve(
         self,
@@ -124,42 +127,19 @@ class Holding:
         seconds: float,
         boundary: Operation | None,
     ) -> None:
-        settings = self._settings
-        policy: str | None = None
-        place = self._result.places.get(number) or f"trajectory {number}"
+        """Do as the policy says, once a hold is over."""
         if verdict is None:
-            self._result.lost[number] = ended_by
-            # For late keyframes and a lost link the policy was asked when it happened.
-            text = f"No verdict on {place} within {settings.verdict_timeout_s:g} s."
-            if ended_by == "lost by the sidecar":
-                text = f"No verdict on {place}: the sidecar lost its keyframes."
-            if ended_by in ("timeout", "lost by the sidecar"):
-                policy = settings.on_link_loss
+            text, policy = self._without_verdict(number, ended_by)
         else:
-            hidden = unobserved([verdict])
-            if hidden and not unobserved(self._result.verdicts.values()):
-                self._operator.comment(tell_unobserved(hidden))
-            self._result.verdicts[number] = verdict
-            text = tell_verdict(place, verdict)
-            if verdict.outcome is Outcome.FAIL:
-                policy = settings.on_fail
-            elif verdict.outcome is Outcome.UNDECIDED:
-                policy = settings.on_undecided
-        refused: str | None = ""
+            text, policy = self._with_verdict(number, verdict)
+        answer = NO_RECOVERY
         if self._recovery is not None:
-            refused = self._recovery.judged(number, verdict, boundary)
-        passed = verdict is not None and verdict.outcome is Outcome.PASS
-        if not passed and number in self._result.attempts:
-            # The well is known to have failed, and was not seen to be put right.
-            policy = max(policy, settings.on_fail, key=_STRICTNESS.index)
-        if step.final and settings.hold == "off":
-            policy = "continue" if policy else None  # too late to change anything
-        if refused is None:
+            answer = self._recovery.judged(number, verdict, boundary)
+        policy = self._strictest(step, number, verdict, policy)
+        if answer.begins:
             policy = "recover"
-        elif refused:
-            text = f"{text} {refused}"
-        text = one_line(text, LONGEST)
-        answered = self._courier.report_hold(number, seconds, ended_by, policy)
+        text = one_line(f"{text} {answer.refusal}".rstrip(), LONGEST)
+        answered = self._sender.report_hold(number, seconds, ended_by, policy, step.reason)
         if policy == "continue":
             self._operator.comment(f"{text} The run goes on, as configured.")
         elif policy == "abort":
@@ -170,6 +150,47 @@ class Holding:
                 f"{text} Paused before {step.reason}. Resume to go on, or cancel the run.",
                 answered,
             )
+
+    def _without_verdict(self, number: int, ended_by: str) -> tuple[str, str | None]:
+        """What is said where there is none, and the policy: for late keyframes and a lost link it
+        was asked when that happened."""
+        self._result.lost[number] = ended_by
+        if ended_by == LOST:
+            return (
+                f"No verdict on {self._place(number)}: the sidecar lost its keyframes.",
+                self._settings.on_link_loss,
+            )
+        return (
+            f"No verdict on {self._place(number)} within {self._settings.verdict_timeout_s:g} s.",
+            self._settings.on_link_loss if ended_by == TIMEOUT else None,
+        )
+
+    def _with_verdict(self, number: int, verdict: Verdict) -> tuple[str, str | None]:
+        """What is said of a verdict, and its policy; ``None`` if it is good."""
+        hidden = unobserved([verdict])
+        if hidden and not unobserved(self._result.verdicts.values()):
+            self._operator.comment(tell_unobserved(hidden))
+        self._result.verdicts[number] = verdict
+        policies = {
+            Outcome.FAIL: self._settings.on_fail,
+            Outcome.UNDECIDED: self._settings.on_undecided,
+        }
+        return tell_verdict(self._place(number), verdict), policies.get(verdict.outcome)
+
+    def _strictest(
+        self, step: Hold, number: int, verdict: Verdict | None, policy: str | None
+    ) -> str | None:
+        """The policy, with what is known of the well already."""
+        passed = verdict is not None and verdict.outcome is Outcome.PASS
+        if not passed and number in self._result.attempts:
+            # The well is known to have failed, and was not seen to be put right.
+            policy = max(policy, self._settings.on_fail, key=_STRICTNESS.index)
+        if step.final and self._settings.hold == "off":
+            return "continue" if policy else None  # too late to change anything
+        return policy
+
+    def _place(self, number: int) -> str:
+        return self._result.places.get(number) or f"trajectory {number}"
 
     def obey(self, number: int) -> float:
         """Do what a person told the moving robot on the sidecar's page, if anybody did.
@@ -183,13 +204,13 @@ class Holding:
         Raises:
             RunAborted, Stopping: The person ends the run.
         """
-        order = self._courier.order()
+        order = self._sender.order()
         if order is None:
             return 0.0
         if order.action == "stop":
             self._end(f"{order.by} ended the run on the sidecar's page.")
         began = time.monotonic()
-        answered = self._courier.report_hold(number, 0.0, "operator", "pause")
+        answered = self._sender.report_hold(number, 0.0, "operator", "pause")
         self._pause(
             number,
             f"{order.by} paused the run on the sidecar's page. Resume to go on, or cancel the run.",
@@ -207,11 +228,11 @@ class Holding:
         Raises:
             RunAborted, Stopping: The person ends the run.
         """
-        self._pause(number, text, self._courier.report_hold(number, 0.0, "layer1", "pause"))
+        self._pause(number, text, self._sender.report_hold(number, 0.0, "layer1", "pause"))
 
     def _end(self, text: str) -> NoReturn:
         """Stop as the App's button does; where nobody can, by an error."""
-        if can_be_resumed() and act_on_current_run("stop"):
+        if can_be_resumed() and act_on_current_run("stop", self._settings.robot_headers()):
             self._waits.rest(_STOP_S)
         raise RunAborted(text)
 
@@ -219,8 +240,9 @@ class Holding:
         """Wait for a person, then tell how long that took and where it was answered."""
         began = time.monotonic()
         page = PageAnswers(
-            self._link, lambda: self._courier.run, number, lambda: self._state.paused
-        )
+            self._link, lambda: self._sender.run, number, lambda: self._state.paused,
+            headers=self._settings.robot_headers(),
+        )  # fmt: skip
         where = self._operator.pause(text, no_news, page)
         if where:
             report(time.monotonic() - began, where)
@@ -229,8 +251,8 @@ class Holding:
     def _hear_decision(self, number: int) -> None:
         """A person may have put the verdict right meanwhile."""
         try:
-            verdict = self._courier.verdict(number)
+            verdict = self._sender.verdict(number)
         except LinkError:
             return
-        if verdict is not None and verdict.gate is Gate.OPERATOR:
+        if verdict is not None and verdict.gate.traits.is_person:
             self._result.verdicts[number] = verdict

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from ..vocabulary import Keyframe, KeyframeKind, WellRef
-from .hand import Hand
+from .pipette_state import PipetteState
 from .steps import Trajectory
 
 _ORDER = tuple(KeyframeKind)
@@ -27,7 +27,7 @@ class Ledger:
         self.recovering: Mapping[str, int] = {}
         self.reagents: dict[WellRef, str] = {}
 
-    def begin(self, hand: Hand) -> Trajectory:
+    def begin(self, hand: PipetteState) -> Trajectory:
         """A new trajectory for what this pipette holds."""
         sources = hand.contents.sources
         names = dict.fromkeys(name for well in sources if (name := self.reagents.get(well)))
@@ -45,7 +45,7 @@ class Ledger:
         self.trajectories += 1
         return trajectory
 
-    def keyframe(self, hand: Hand, trajectory: Trajectory) -> Keyframe:
+    def keyframe(self, hand: PipetteState, trajectory: Trajectory) -> Keyframe:
         """The next of the four keyframes, as things stand now."""
         known = {found for found in trajectory.found if found is not None}
         one = len(trajectory.sources) == 1

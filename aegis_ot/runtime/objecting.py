@@ -8,13 +8,13 @@ from typing import Any, Protocol
 from ..errors import RunAborted
 from ..instrumentation import Event, Operation
 from ..settings import Settings
+from .cancellation import CancellationToken, Stopping
 from .operator import Operator, no_news
 from .refusal import refuse_everything
-from .runstate import RunState
-from .stopping import Stopping, Waits
+from .run_state import RunState
 
 
-class Hands(Protocol):
+class RunControl(Protocol):
     """What Layer 1 needs of whoever stands between it and a run."""
 
     @property
@@ -81,11 +81,11 @@ class Bystander:
         self._file_name = file_name
         self._begun = False
         simulating = bool(protocol.is_simulating())
-        self._operator = Operator(protocol, simulating, Waits(RunState(protocol)).rest)
+        self._operator = Operator(protocol, simulating, CancellationToken(RunState(protocol)).rest)
 
     @property
     def may_object(self) -> bool:
-        """Of :class:`Hands`."""
+        """Of :class:`RunControl`."""
         return self._begun or not self._operator.is_legacy
 
     def begin(self) -> None:
@@ -112,7 +112,7 @@ class Bystander:
             self._operator.proceed()
 
     def object_to(self, text: str) -> None:
-        """Of :class:`Hands`; raises as :func:`object_to`."""
+        """Of :class:`RunControl`; raises as :func:`object_to`."""
         try:
             object_to(text, self._settings, self._operator)
         except Stopping:
@@ -122,6 +122,6 @@ class Bystander:
             raise
 
     def tell_difference(self, text: str) -> None:
-        """Of :class:`Hands`. The run log has its word at the end only, where the analysis has one
-        too: the Opentrons App compares the commands of both."""
+        """Of :class:`RunControl`. The run log has its word at the end only, where the analysis
+        has one too: the Opentrons App compares the commands of both."""
         self.begin()

@@ -12,9 +12,9 @@ from typing import Any
 
 from ..errors import RunAborted
 from ..vocabulary import one_line
-from .legacyrun import LegacyRun
+from .legacy_run import LegacyRun
 from .page_answers import PageAnswers
-from .runstate import can_be_resumed
+from .run_state import can_be_resumed
 
 _REMIND_S = 60.0
 _POLL_S = 0.15
@@ -22,7 +22,7 @@ _ASK_S = 0.3
 """How long the page may take to answer while the console is listened to as well, s."""
 
 
-class Answer(Enum):
+class OperatorAnswer(Enum):
     """What the operator, or the mended cause, says."""
 
     RESUME = "resume"
@@ -33,12 +33,12 @@ LONGEST = 4000
 """Characters of one comment. It is one line: what a person or a protocol named must not look like
 a line of somebody else's in the run log, or in that of a CI job."""
 
-Poll = Callable[[], "Answer | None"]
+Poll = Callable[[], "OperatorAnswer | None"]
 
-_ON_PAGE = {"resume": Answer.RESUME, "stop": Answer.ABORT}
+_ON_PAGE = {"resume": OperatorAnswer.RESUME, "stop": OperatorAnswer.ABORT}
 
 
-def no_news() -> Answer | None:
+def no_news() -> OperatorAnswer | None:
     """A :data:`Poll` where nothing mends by itself."""
     return None
 
@@ -151,9 +151,9 @@ class Operator:
                 self._rest(_POLL_S)
                 on_page = None if page is None else _ON_PAGE.get(page.ask(_ASK_S) or "")
                 answer = on_page or (_typed() if has_console else None) or poll()
-                if answer is Answer.RESUME:
+                if answer is OperatorAnswer.RESUME:
                     return "page" if on_page else "console"
-                if answer is Answer.ABORT:
+                if answer is OperatorAnswer.ABORT:
                     raise RunAborted(f"The operator ended the run. {text}")
                 if time.monotonic() - reminded > _REMIND_S:
                     reminded = time.monotonic()
@@ -188,14 +188,14 @@ def _is_terminal() -> bool:
         return False
 
 
-def _typed() -> Answer | None:
+def _typed() -> OperatorAnswer | None:
     try:
         ready, _, _ = select.select([sys.stdin], [], [], 0)
         word = sys.stdin.readline().strip().lower() if ready else ""
     except (OSError, ValueError):
         return None
     if word in ("c", "continue", "resume"):
-        return Answer.RESUME
+        return OperatorAnswer.RESUME
     if word in ("a", "abort", "stop"):
-        return Answer.ABORT
+        return OperatorAnswer.ABORT
     return None

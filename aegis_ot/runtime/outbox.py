@@ -9,7 +9,7 @@ from typing import Any
 
 from ..errors import SidecarRefused
 from ..http_client import SLICE_S
-from .link import RunUnknown, SidecarLink
+from .sidecar_client import RunUnknown, SidecarClient
 
 REQUEST_S = 2.0
 """Longest wait for an answer that needs no camera, s."""
@@ -28,7 +28,7 @@ class Outbox:
         run: May change when it registers.
     """
 
-    def __init__(self, link: SidecarLink, run: str, register: Callable[[float], None]) -> None:
+    def __init__(self, link: SidecarClient, run: str, register: Callable[[float], None]) -> None:
         self._link = link
         self.run = run
         self._register = register

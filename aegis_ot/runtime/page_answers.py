@@ -10,12 +10,12 @@ import http.client
 import json
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from ..errors import LinkError
 from ..http_client import CheckStop, HttpClient
-from .link import SidecarLink
+from .sidecar_client import SidecarClient
 
 ROBOT_SERVER = "http://127.0.0.1:31950"
 _TIMEOUT_S = 5.0
@@ -24,7 +24,7 @@ _ASK_S = 2.0
 
 _DOES = {"resume": "play", "stop": "stop"}
 
-Announce = Callable[[SidecarLink], None]
+Announce = Callable[[SidecarClient], None]
 """Tells the sidecar of the pause; raises LinkError where it does not hear."""
 
 
@@ -41,6 +41,7 @@ class PageAnswers:
         number: Of the trajectory that the robot is paused at.
         paused: Whether the robot is paused; an answer given before that would be lost.
         announce: Tried until the sidecar has heard; ``None`` where it was told already.
+        headers: Of requests to the robot's own API.
 
     Attributes:
         given: Whether an answer was carried out.
@@ -48,17 +49,19 @@ class PageAnswers:
 
     def __init__(
         self,
-        link: Callable[[CheckStop], SidecarLink],
+        link: Callable[[CheckStop], SidecarClient],
         run: Callable[[], str],
         number: int,
         paused: Callable[[], bool],
         announce: Announce | None = None,
+        headers: Mapping[str, str] | None = None,
     ) -> None:
         self.given = False
         self._run = run
         self._number = number
         self._paused = paused
         self._announce = announce
+        self._headers = headers
         self._began = time.monotonic()
         self._over = threading.Event()
         self._link = link(self._check)
@@ -100,7 +103,7 @@ class PageAnswers:
                 action = self.ask()
                 if action in _DOES and self._paused() and not self._over.is_set():
                     self.given = True
-                    self.given = act_on_current_run(_DOES[action])
+                    self.given = act_on_current_run(_DOES[action], self._headers)
                 if self._over.wait(_EVERY_S):
                     return
         except _Answered:
@@ -109,13 +112,17 @@ class PageAnswers:
             self.close()
 
 
-def act_on_current_run(action: str) -> bool:
+def act_on_current_run(action: str, headers: Mapping[str, str] | None = None) -> bool:
     """Have the robot's server ``"play"``, ``"pause"`` or ``"stop"`` its current run.
+
+    Args:
+        action: Which.
+        headers: Of the requests, as the settings make them.
 
     Returns:
         Whether it took the order.
     """
-    robot = HttpClient(ROBOT_SERVER, None, headers={"Opentrons-Version": "*"})
+    robot = HttpClient(ROBOT_SERVER, None, headers={"Opentrons-Version": "*", **(headers or {})})
     try:
         current = _ask(robot, "GET", "/runs?pageLength=1")
         href = current["links"]["current"]["href"]

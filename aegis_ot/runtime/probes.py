@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 from ..instrumentation import Event, EventKind, Operation, OperationKind
 from ..vocabulary import WellRef
-from .hand import Place
+from .pipette_state import Place
 
 Probe = Callable[[Operation], "bool | None"]
 """Whether a probe that is over found liquid; ``None`` if it did not say."""

@@ -10,7 +10,7 @@ from typing import Any
 from ..instrumentation import Operation, OperationKind, Tap
 from ..settings import Settings
 from ..vocabulary import Outcome, Verdict, WellRef
-from .hand import in_place
+from .pipette_state import in_place
 from .recovery_policy import NotAllowed, Plan, plan_recovery
 from .spare_tips import TipForecast, spare_tips
 from .strokes import Strokes
@@ -33,7 +33,23 @@ class TipKnowledge:
     touched: Callable[[WellRef], frozenset[WellRef] | None] = lambda well: None
 
 
-class Recovery:
+@dataclass(frozen=True)
+class RecoveryAnswer:
+    """What is done about a judged delivery.
+
+    Attributes:
+        begins: Whether :meth:`RunRecoveries.carry_out` puts it right.
+        refusal: Why it is left to a person, in a sentence; empty where that needs no words.
+    """
+
+    begins: bool = False
+    refusal: str = ""
+
+
+NO_RECOVERY = RecoveryAnswer()
+
+
+class RunRecoveries:
     """The recoveries of one run.
 
     Args:
@@ -41,7 +57,7 @@ class Recovery:
         tips: What Layer 1 knows of them.
         tap: Does operations again.
         say: Writes a comment into the run log.
-        report: Tells the sidecar of a recovery (``Recovery`` in the wire protocol).
+        report: Tells the sidecar of a recovery (``RecoveryReport`` in the wire protocol).
         check: Raises when the run is being stopped.
         result: Recovered wells are counted here.
 
@@ -82,17 +98,13 @@ class Recovery:
 
     def judged(
         self, trajectory: int, verdict: Verdict | None, boundary: Operation | None
-    ) -> str | None:
+    ) -> RecoveryAnswer:
         """A hold has ended.
 
         Args:
             trajectory: Held for.
             verdict: On it; ``None`` if there is none.
             boundary: What the protocol does next, if it is free to wait.
-
-        Returns:
-            Why it is left to a person, in a sentence, or ``""`` where that needs no words;
-            ``None``: :meth:`carry_out` puts it right.
         """
         delivery = self.strokes.delivery(trajectory)
         recovers = None if delivery is None else delivery.keyframe.recovers
@@ -100,10 +112,10 @@ class Recovery:
         if recovers is not None:
             self._ended(root, trajectory, verdict)
         if verdict is None or verdict.outcome is not Outcome.FAIL or verdict.failure is None:
-            return ""
+            return NO_RECOVERY
         action = self._settings.recover.get(verdict.failure.value)
         if action is None:
-            return ""
+            return NO_RECOVERY
         try:
             well = None if delivery is None else delivery.destination
             touched = None if well is None else self._tips.touched(well)
@@ -112,11 +124,11 @@ class Recovery:
         except Exception as why:  # NotAllowed; or what nobody foresaw, which must not end the run
             self._actions[root] = action
             self._tell(root, "refused", f"Left to a person: {why}.", again=True)
-            return f"The robot does not put it right by itself: {why}."
+            return RecoveryAnswer(refusal=f"The robot does not put it right by itself: {why}.")
         self._attempts[root] += 1
         self._actions[root] = action
         self._due = (plan, root)
-        return None
+        return RecoveryAnswer(begins=True)
 
     def carry_out(self) -> None:
         """Change the tip and do the delivery again; the watcher sees it like any other.

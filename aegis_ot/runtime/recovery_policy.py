@@ -9,10 +9,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ..instrumentation import Operation, OperationKind, is_repeatable
-from ..vocabulary import FailureType, Gate, Keyframe, Verdict, WellRef
+from ..vocabulary import FailureType, Keyframe, Verdict, WellRef
 from .contents import TRACE_UL
-from .hand import in_place, wells_of
-from .strokes import Delivery
+from .pipette_state import in_place, wells_of
+from .strokes import RecordedDelivery
 
 EMPTY_MOST = 0.15
 """Share of the volume up to which a tip that was measured counts as empty: the share below which
@@ -63,7 +63,7 @@ class Plan:
 
 def plan_recovery(
     action: str,
-    delivery: Delivery | None,
+    delivery: RecordedDelivery | None,
     verdict: Verdict,
     boundary: Operation | None,
     touched: frozenset[WellRef] | None,
@@ -104,7 +104,7 @@ def plan_recovery(
     return Plan(action, delivery.keyframe, strokes, missing, saves)
 
 
-def _check_situation(delivery: Delivery, boundary: Operation) -> None:
+def _check_situation(delivery: RecordedDelivery, boundary: Operation) -> None:
     keyframe = delivery.keyframe
     if keyframe.channels != 1 or boundary.pipette.channels != 1:
         raise NotAllowed("only one of several tips was judged")
@@ -139,7 +139,7 @@ def _check_nothing_came(keyframe: Keyframe, verdict: Verdict) -> None:
     measured, commanded = verdict.measured_ul, keyframe.commanded_ul
     if verdict.failure is FailureType.NO_ASPIRATE and keyframe.liquid_found is False:
         raise NotAllowed("the pipette's pressure sensor found no liquid in the source")
-    if measured is None or verdict.gate is not Gate.VOLUMETRIC:
+    if measured is None or not verdict.gate.traits.measures:
         raise NotAllowed("nothing was measured that shows the well to be without it")
     if verdict.failure is FailureType.NO_ASPIRATE and measured > EMPTY_MOST * commanded:
         raise NotAllowed(f"about {measured:.0f} µL were drawn and may be in the well")
@@ -161,7 +161,7 @@ def _missing(keyframe: Keyframe, verdict: Verdict) -> float:
     return missing
 
 
-def _top_up(delivery: Delivery, missing: float) -> tuple[Stroke, ...]:
+def _top_up(delivery: RecordedDelivery, missing: float) -> tuple[Stroke, ...]:
     """The draw and the last dispense with the missing volume, and what followed them there."""
     draws, deliveries = delivery.draws, delivery.deliveries
     if len(draws) != 1 or not deliveries:

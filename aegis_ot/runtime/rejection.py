@@ -8,10 +8,10 @@ from typing import Any
 
 from ..errors import LinkError
 from ..settings import Settings
+from .cancellation import CancellationToken, Stopping
 from .descriptions import about_guard, about_run
-from .link import SidecarLink
-from .runstate import RunState
-from .stopping import Stopping, Waits
+from .run_state import RunState
+from .sidecar_client import SidecarClient
 
 _REQUEST_S = 1.0
 
@@ -38,11 +38,12 @@ def tell_of_rejection(
     run = settings.new_run_id()
     about = about_run(protocol, run, file_name, simulating)
     about |= {"guard": about_guard(settings), "layer1": layer1}
-    check = Waits(RunState(protocol)).check
-    link = SidecarLink(settings.sidecar, settings.token, check, uuid.uuid4().hex)
+    check = CancellationToken(RunState(protocol)).check
+    link = SidecarClient(settings.sidecar, settings.token, check, uuid.uuid4().hex)
     try:
         run = link.start(run, about, _REQUEST_S)
-        link.finish(run, "failed", reason[:2000], _REQUEST_S)
+        nothing = {"trajectories": 0, "keyframes": 0}
+        link.finish(run, "failed", reason[:2000], _REQUEST_S, nothing)
     except (LinkError, Stopping):
         pass
     finally:

@@ -6,14 +6,14 @@ from dataclasses import dataclass
 
 from ..instrumentation import Operation, OperationKind
 from ..vocabulary import Keyframe, KeyframeKind, WellRef
-from .contents import Contents, Layer, liquid_of
-from .hand import unique, wells_of
+from .contents import Contents, DrawnLayer, liquid_of
+from .pipette_state import unique, wells_of
 
 _EXPELS = (OperationKind.DISPENSE, OperationKind.BLOW_OUT)
 
 
 @dataclass(frozen=True)
-class Delivery:
+class RecordedDelivery:
     """One delivery, and the operations that made it.
 
     Attributes:
@@ -64,9 +64,9 @@ class Delivery:
             if stroke.kind in _EXPELS:
                 tip.expel(None if stroke.kind is OperationKind.BLOW_OUT else stroke.volume)
             elif stroke.is_air:
-                tip.draw(Layer(stroke.volume, liquid=False))
+                tip.draw(DrawnLayer(stroke.volume, liquid=False))
             elif stroke.kind is OperationKind.ASPIRATE:
-                tip.draw(Layer(stroke.volume, unique(stroke.wells)))
+                tip.draw(DrawnLayer(stroke.volume, unique(stroke.wells)))
         commanded = self.keyframe.commanded_ul
         loaded = liquid_of(tip.peek())
         return abs(loaded - commanded) <= 0.005 * commanded + 0.01 and set(tip.sources) == set(
@@ -96,11 +96,11 @@ class Strokes:
             done = tuple(self._open.pop(keyframe.mount, ()))
             self._last[keyframe.mount] = (keyframe, _from_source(done, keyframe))
 
-    def delivery(self, trajectory: int) -> Delivery | None:
+    def delivery(self, trajectory: int) -> RecordedDelivery | None:
         """The delivery with this number, if it is the last one of its pipette's tip."""
         for mount, (keyframe, strokes) in self._last.items():
             if keyframe.trajectory == trajectory:
-                return Delivery(keyframe, strokes, tuple(self._open.get(mount, ())))
+                return RecordedDelivery(keyframe, strokes, tuple(self._open.get(mount, ())))
         return None
 
 

@@ -63,7 +63,7 @@ class WatchSummary:
     def text(self) -> str:
         """One line for a comment in the run log."""
         if not self.watching:
-            return "Layer 2 does not watch this simulation."
+            return "This is a simulation; Layer 2 watches the run itself."
         failed = tuple(n for n in self.of(Outcome.FAIL) if n not in self.recovered)
         recovered = tuple(sorted(self.recovered))
         # A delivery without a verdict is no pass.

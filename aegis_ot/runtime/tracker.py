@@ -13,9 +13,9 @@ from collections.abc import Callable, Mapping
 
 from ..instrumentation import Event, EventKind, Operation, OperationKind
 from .awaiting import EXPELLING, Awaiting, describe, is_on
-from .contents import Layer, liquid_of
-from .hand import Hand, Place, in_place, unique, wells_of
+from .contents import DrawnLayer, liquid_of
 from .ledger import Ledger
+from .pipette_state import PipetteState, Place, in_place, unique, wells_of
 from .probes import Probe, Probes, never_asked
 from .steps import Abandon, Capture, Hold, Lift, Step, Trajectory
 
@@ -49,7 +49,7 @@ class Tracker:
         self._hold = hold
         self._lift = lift
         self._capacity = capacity
-        self._hands: dict[str, Hand] = {}
+        self._hands: dict[str, PipetteState] = {}
         self._awaiting = Awaiting()
         self._probes = Probes(probe)
 
@@ -98,10 +98,10 @@ class Tracker:
             if kind is OperationKind.DROP_TIP:
                 hand.tip = ""
         elif operation.is_air:
-            hand.contents.draw(Layer(operation.volume, liquid=False))
+            hand.contents.draw(DrawnLayer(operation.volume, liquid=False))
         elif kind is OperationKind.ASPIRATE:
             sources = unique(operation.wells)
-            hand.contents.draw(Layer(operation.volume, sources, found=found))
+            hand.contents.draw(DrawnLayer(operation.volume, sources, found=found))
             if not operation.mixing:
                 hand.draw = operation
         elif kind in EXPELLING:
@@ -156,7 +156,9 @@ class Tracker:
 
     # What is owed before the tip goes on
 
-    def _owed_to_destination(self, hand: Hand, operation: Operation, steps: list[Step]) -> None:
+    def _owed_to_destination(
+        self, hand: PipetteState, operation: Operation, steps: list[Step]
+    ) -> None:
         current = hand.current
         if current is None or not current.delivered:
             return
@@ -167,7 +169,7 @@ class Tracker:
         if not stays or _draws(operation):
             self._complete(hand, steps, lift=not in_place(operation))
 
-    def _owed_to_source(self, hand: Hand, operation: Operation, steps: list[Step]) -> None:
+    def _owed_to_source(self, hand: PipetteState, operation: Operation, steps: list[Step]) -> None:
         if _draws(operation):
             self._give_up(hand, "more was drawn before it was delivered", steps)
             return
@@ -182,7 +184,7 @@ class Tracker:
         if gap_ends_it or not (comes_back or operation.is_air):
             self._begin(hand, steps)
 
-    def _arrival(self, hand: Hand, operation: Operation, steps: list[Step]) -> None:
+    def _arrival(self, hand: PipetteState, operation: Operation, steps: list[Step]) -> None:
         delivers = hand.delivers(operation)
         carries = hand.contents.holds_liquid and not hand.brings_home(operation)
         draws = operation.kind is OperationKind.ASPIRATE and not operation.mixing
@@ -206,15 +208,15 @@ class Tracker:
 
     # The life of a trajectory
 
-    def _begin(self, hand: Hand, steps: list[Step]) -> None:
+    def _begin(self, hand: PipetteState, steps: list[Step]) -> None:
         hand.current = self._ledger.begin(hand)
         hand.draw = None
         self._capture(hand, hand.current, steps)
 
-    def _capture(self, hand: Hand, trajectory: Trajectory, steps: list[Step]) -> None:
+    def _capture(self, hand: PipetteState, trajectory: Trajectory, steps: list[Step]) -> None:
         steps.append(Capture(self._ledger.keyframe(hand, trajectory)))
 
-    def _complete(self, hand: Hand, steps: list[Step], lift: bool) -> None:
+    def _complete(self, hand: PipetteState, steps: list[Step], lift: bool) -> None:
         trajectory = hand.current
         if trajectory is None:
             return
@@ -226,7 +228,7 @@ class Tracker:
         if self._hold == "well":
             self._ask([trajectory], "the well is done", steps)
 
-    def _settle(self, hand: Hand, steps: list[Step], lift: bool = True) -> None:
+    def _settle(self, hand: PipetteState, steps: list[Step], lift: bool = True) -> None:
         """All that this pipette owes, because something else is about to move."""
         if hand.draw is not None:
             self._begin(hand, steps)
@@ -235,12 +237,12 @@ class Tracker:
                 self._capture(hand, hand.current, steps)
             self._complete(hand, steps, lift)
 
-    def _give_up(self, hand: Hand, reason: str, steps: list[Step]) -> None:
+    def _give_up(self, hand: PipetteState, reason: str, steps: list[Step]) -> None:
         if hand.current is not None and not hand.current.delivered:
             steps.append(Abandon(hand.current.number, reason))
             hand.current = None
 
-    def _raise(self, hand: Hand, operation: Operation, steps: list[Step]) -> None:
+    def _raise(self, hand: PipetteState, operation: Operation, steps: list[Step]) -> None:
         steps.append(Lift(operation))
         hand.above = True
         hand.place = wells_of(operation)
@@ -257,7 +259,7 @@ class Tracker:
 
     # What an operation changed
 
-    def _expelled(self, hand: Hand, operation: Operation, steps: list[Step]) -> None:
+    def _expelled(self, hand: PipetteState, operation: Operation, steps: list[Step]) -> None:
         delivers = hand.delivers(operation)
         everything = operation.kind is OperationKind.BLOW_OUT
         layers = hand.contents.expel(None if everything else operation.volume)
@@ -272,7 +274,7 @@ class Tracker:
             hand.draw = None
             self._give_up(hand, "its liquid was thrown away or put back", steps)
 
-    def _stand(self, hand: Hand, operation: Operation, target: Place) -> None:
+    def _stand(self, hand: PipetteState, operation: Operation, target: Place) -> None:
         hand.nozzles = operation.nozzles
         if wells_of(operation):
             hand.aimed = operation
@@ -294,10 +296,10 @@ class Tracker:
             self._give_up(hand, "its pipette was unloaded before it was delivered", steps)
             del self._hands[operation.pipette.key]
 
-    def _hand(self, operation: Operation) -> Hand:
+    def _hand(self, operation: Operation) -> PipetteState:
         key = operation.pipette.key
         if key not in self._hands:
-            self._hands[key] = Hand(operation.pipette)
+            self._hands[key] = PipetteState(operation.pipette)
         return self._hands[key]
 
 

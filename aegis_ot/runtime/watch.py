@@ -14,20 +14,20 @@ from ..http_client import CheckStop
 from ..instrumentation import Event, Operation, Tap
 from ..settings import Settings
 from ..vocabulary import Keyframe, KeyframeKind
-from .courier import Courier
+from .cancellation import LAST_WORDS_S, CancellationToken, Stopping
 from .descriptions import about_guard, about_run, working_volume
 from .holding import Holding
-from .link import SidecarLink
-from .linkloss import LinkLoss
+from .keyframe_sender import KeyframeSender
+from .link_loss import LinkLossPolicy
 from .objecting import object_to
 from .operator import Operator
 from .page_answers import PageAnswers
 from .probes import liquid_found, never_asked
-from .recovering import Recovery, TipKnowledge
+from .recovering import RunRecoveries, TipKnowledge
 from .refusal import refuse_everything
-from .runstate import RunState
+from .run_state import RunState
+from .sidecar_client import SidecarClient
 from .steps import Abandon, Capture, Hold, Lift, Step
-from .stopping import LAST_WORDS_S, Stopping, Waits
 from .summary import WatchSummary
 from .tracker import Tracker
 
@@ -39,8 +39,8 @@ _GOODBYE_S = 3.0
 class _Line:
     """What stands between robot and sidecar while a run is watched."""
 
-    courier: Courier
-    loss: LinkLoss
+    sender: KeyframeSender
+    loss: LinkLossPolicy
     holding: Holding
 
 
@@ -54,7 +54,8 @@ class Watcher:
         protocol: The context of the run.
         settings: In force for this run; ``settings.sidecar`` must not be ``None``.
         file_name: ``co_filename`` of the protocol's code.
-        layer1: Layer 1's report, for the sidecar's page.
+        about: Of the run's registration what is known before it: ``layer1``, ``title``, ``plates``,
+            ``planned``.
         tips: What Layer 1 knows of them; without it nothing is recovered.
         text: The protocol's, where it is known.
     """
@@ -64,7 +65,7 @@ class Watcher:
         protocol: Any,
         settings: Settings,
         file_name: str,
-        layer1: Mapping[str, Any] | None = None,
+        about: Mapping[str, Any] | None = None,
         tips: TipKnowledge | None = None,
         text: str = "",
     ) -> None:
@@ -74,18 +75,18 @@ class Watcher:
         self._nonce = self.run_id if settings.run_id is None else uuid.uuid4().hex
         self.result = WatchSummary(watching=settings.watch_simulation or not self._simulating)
         self._state = RunState(protocol)
-        self._waits = Waits(self._state)
+        self._waits = CancellationToken(self._state)
         self._operator = Operator(protocol, self._simulating, self._waits.rest)
         # A simulator's probe finds what the simulator assumes: no witness.
         probe = never_asked if self._simulating else liquid_found
         self._tracker = Tracker(self.run_id, settings.hold, settings.lift, working_volume, probe)
         self._lift: LiftMove = lambda operation: None
         self._tips = tips
-        self._recovery: Recovery | None = None
+        self._recovery: RunRecoveries | None = None
         self._line: _Line | None = None
         self._about = about_run(protocol, self.run_id, file_name, self._simulating) | {
+            **(about or {}),
             "guard": about_guard(settings),
-            "layer1": layer1,
             "protocol_sha256": hashlib.sha256(text.encode()).hexdigest() if text else "",
         }
         self._refuse: Callable[[RunAborted], None] = lambda error: refuse_everything(
@@ -117,7 +118,7 @@ class Watcher:
             self._say_name(line)
         except BaseException:
             self._operator.end()
-            line.courier.close()
+            line.sender.close()
             raise
 
     def before(self, operation: Operation) -> None:
@@ -144,7 +145,7 @@ class Watcher:
 
     @property
     def may_object(self) -> bool:
-        """Of :class:`aegis_ot.runtime.objecting.Hands`."""
+        """Of :class:`aegis_ot.runtime.objecting.RunControl`."""
         return True
 
     def object_to(self, text: str) -> None:
@@ -164,7 +165,7 @@ class Watcher:
     def tell_difference(self, text: str) -> None:
         """The run does otherwise than its rehearsal: the sidecar's page says so at once."""
         if self._line is not None:
-            self._line.courier.report_difference(text)
+            self._line.sender.report_difference(text)
 
     def end(
         self,
@@ -235,7 +236,7 @@ class Watcher:
         self._stoppable(perform)
         return True
 
-    def _recover(self, recovery: Recovery, operation: Operation) -> None:
+    def _recover(self, recovery: RunRecoveries, operation: Operation) -> None:
         """Put right what failed, before ``operation``; what is done is watched like the rest."""
         while recovery.is_due and not self._stopped:
             self._act(recovery.carry_out)
@@ -260,20 +261,20 @@ class Watcher:
         if self._recovery is not None:
             self._recovery.strokes.captured(keyframe)
         line = self._connected()
-        courier = line.courier
+        sender = line.sender
         now, uptime = time.time(), time.monotonic()
-        courier.offer(replace(keyframe, robot_time=now, robot_uptime=uptime))
+        sender.offer(replace(keyframe, robot_time=now, robot_uptime=uptime))
         timeout = self._settings.capture_timeout_s
-        if courier.away and not courier.look(timeout):
-            courier.move_on()
+        if sender.away and not sender.look(timeout):
+            sender.move_on()
             return
-        line.loss.insist(lambda: courier.deliver(timeout), keyframe.trajectory)
+        line.loss.insist(lambda: sender.deliver(timeout), keyframe.trajectory)
         self._say_name(line)
         line.holding.obey(keyframe.trajectory)
 
     def _say_name(self, line: _Line) -> None:
         """The sidecar gave the run a name of its own: another start has the one it came with."""
-        before, self.run_id = self.run_id, line.courier.run
+        before, self.run_id = self.run_id, line.sender.run
         if before != self.run_id:
             self._operator.comment(
                 f"The sidecar has another run {before!r}; this one is watched as {self.run_id!r}, "
@@ -283,7 +284,7 @@ class Watcher:
 
     def _abandon(self, step: Abandon) -> None:
         self.result.abandoned.add(step.trajectory)
-        self._connected().courier.abandon(step.trajectory, step.reason)
+        self._connected().sender.abandon(step.trajectory, step.reason)
 
     def _stoppable(self, action: Callable[[], None]) -> None:
         """Drop everything on a stop: the next command raises what Opentrons raises then."""
@@ -302,12 +303,12 @@ class Watcher:
         url, token = self._settings.sidecar, self._settings.token
         assert url is not None
 
-        def link(check: CheckStop) -> SidecarLink:
-            return SidecarLink(url, token, check, self._nonce)
+        def link(check: CheckStop) -> SidecarClient:
+            return SidecarClient(url, token, check, self._nonce)
 
-        courier = Courier(link(self._waits.check), self.run_id, self._about, self._waits.rest)
-        loss = LinkLoss(
-            courier,
+        sender = KeyframeSender(link(self._waits.check), self.run_id, self._about, self._waits.rest)
+        loss = LinkLossPolicy(
+            sender,
             self._settings,
             self._operator,
             self._state,
@@ -315,21 +316,26 @@ class Watcher:
             self._simulating,
             self.result,
             lambda number, announce: PageAnswers(
-                link, lambda: courier.run, number, lambda: self._state.paused, announce
+                link,
+                lambda: sender.run,
+                number,
+                lambda: self._state.paused,
+                announce,
+                self._settings.robot_headers(),
             ),
         )
         if self._settings.recover and self._tips is not None:
-            self._recovery = Recovery(
-                self._settings, self._tips, tap, self._operator.comment, courier.report_recovery,
+            self._recovery = RunRecoveries(
+                self._settings, self._tips, tap, self._operator.comment, sender.report_recovery,
                 self._waits.check, self.result,
             )  # fmt: skip
             self._tracker.mark_recoveries(self._recovery.of_mount)
         holding = Holding(
-            courier, loss, self._settings, self._operator, self._state, self._waits, self.result,
+            sender, loss, self._settings, self._operator, self._state, self._waits, self.result,
             link, self._recovery,
         )  # fmt: skip
         loss.obey = holding.obey
-        return _Line(courier, loss, holding)
+        return _Line(sender, loss, holding)
 
     def _connected(self) -> _Line:
         if self._line is None:
@@ -346,16 +352,17 @@ class Watcher:
         leftover = self._tracker.break_off(f"the run {outcome}")
         if line is None:
             return
-        courier = line.courier
-        self.result.keyframes = courier.acknowledged
+        sender = line.sender
+        self.result.keyframes = sender.acknowledged
         self._waits.leave()
         patience = LAST_WORDS_S if outcome == "stopped" else _GOODBYE_S
         given_up = {step.trajectory: step.reason for step in leftover if isinstance(step, Abandon)}
-        if outcome == "stopped" or courier.away:
+        if outcome == "stopped" or sender.away:
             given_up = {}
         try:
-            courier.finish(outcome, detail, given_up, patience, layer1)
+            begun = self._tracker.trajectories
+            sender.finish(outcome, detail, given_up, patience, layer1, begun)
         except (LinkError, Stopping):
             pass  # it was lost before, and the policy has had its say; or nobody wants to wait
         finally:
-            courier.close()
+            sender.close()

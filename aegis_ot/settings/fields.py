@@ -5,6 +5,7 @@ from __future__ import annotations
 import uuid
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
+from urllib.parse import quote
 
 
 @dataclass(frozen=True)
@@ -26,6 +27,9 @@ class Settings:
         sidecar: Address of the sidecar, ``"http://192.168.1.20:7645"``; ``None`` for Layer 1
             alone.
         token: Bearer token that the sidecar expects, or ``None``.
+        robot_token: Bearer token for the robot's own API, where its access is controlled.
+        robot_reason: What such a robot is given as the reason of all that changes it, for its log;
+            that aegis-ot guards the run if ``None``.
         hold: ``"boundary"``, ``"well"`` or ``"off"``; see ``docs/reference/keyframes.md``.
         on_fail: What a failed well does, and a step that was not rehearsed and breaks a rule:
             ``"pause"``, ``"continue"`` or ``"abort"``.
@@ -57,6 +61,8 @@ class Settings:
     roles: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     sidecar: str | None = None
     token: str | None = field(default=None, repr=False)
+    robot_token: str | None = field(default=None, repr=False)
+    robot_reason: str | None = None
     hold: str = "boundary"
     on_fail: str = "pause"
     on_undecided: str = "pause"
@@ -76,6 +82,18 @@ class Settings:
     def new_run_id(self) -> str:
         """The configured identifier, or a fresh one."""
         return self.run_id or uuid.uuid4().hex
+
+    def robot_headers(self) -> dict[str, str]:
+        """What a request to the robot's own API carries.
+
+        A robot whose access is controlled wants a reason in ``Opentrons-User-Notes``, as
+        percent-encoded UTF-8 (Opentrons' robot server 10).
+        """
+        headers = {"Opentrons-Version": "*"}
+        if self.robot_token:
+            headers["Authorization"] = f"Bearer {self.robot_token}"
+            headers["Opentrons-User-Notes"] = quote(self.robot_reason or "aegis-ot guards this run")
+        return headers
 
 
 NAMES = tuple(f.name for f in fields(Settings))

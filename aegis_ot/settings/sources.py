@@ -16,7 +16,7 @@ from typing import Any
 
 from ..errors import ConfigurationError
 from .fields import NAMES, Settings
-from .values import READERS, Site
+from .values import READERS, SettingPlace
 
 PREFIX = "AEGIS_OT_"
 FILE_VARIABLE = "AEGIS_OT_CONFIG"
@@ -39,7 +39,7 @@ def load_settings(**keywords: Any) -> Settings:
             where = f"{origin} {PREFIX}{name.upper()}" if origin == "environment" else origin
             if name not in NAMES:
                 raise ConfigurationError(_unknown(name, where))
-            values[name] = READERS[name](value, Site(name, where))
+            values[name] = READERS[name](value, SettingPlace(name, where))
     return Settings(**values)
 
 

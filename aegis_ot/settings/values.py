@@ -15,14 +15,17 @@ from typing import Any
 from urllib.parse import urlsplit
 
 from ..errors import ConfigurationError
+from ..vocabulary import FAILURES
 
 POLICIES = ("pause", "continue", "abort")
-RECOVERIES = {"no_aspirate": "retry", "no_dispense": "retry", "partial_dispense": "top_up"}
+RECOVERIES = {
+    kind.value: known.recovery for kind, known in sorted(FAILURES.items()) if known.recovery
+}
 """What can be done by itself about each kind of failure; of others too little is known."""
 
 
 @dataclass(frozen=True)
-class Site:
+class SettingPlace:
     """Which setting is read, and where it was written, as messages name them."""
 
     name: str
@@ -31,7 +34,7 @@ class Site:
     def error(self, value: Any, accepted: str) -> ConfigurationError:
         """That ``value`` cannot be used."""
         # An address may hold a password, and messages end up in logs.
-        is_secret = self.name == "token" or (self.name == "sidecar" and "@" in str(value))
+        is_secret = "token" in self.name or (self.name == "sidecar" and "@" in str(value))
         shown = "..." if is_secret else reprlib.repr(value)
         return ConfigurationError(
             f"Setting {self.name!r} ({self.origin}) is {shown}. Accepted: {accepted}."
@@ -39,7 +42,7 @@ class Site:
 
 
 def _optional_text(
-    value: Any, site: Site, accepted: str = "a text that is not empty"
+    value: Any, site: SettingPlace, accepted: str = "a text that is not empty"
 ) -> str | None:
     if value is None:
         return None
@@ -48,8 +51,8 @@ def _optional_text(
     return str(value).strip()
 
 
-def _choice(*choices: str) -> Callable[[Any, Site], str]:
-    def read(value: Any, site: Site) -> str:
+def _choice(*choices: str) -> Callable[[Any, SettingPlace], str]:
+    def read(value: Any, site: SettingPlace) -> str:
         if value is False and "off" in choices:
             return "off"
         if value is True and "on" in choices:
@@ -64,7 +67,7 @@ def _choice(*choices: str) -> Callable[[Any, Site], str]:
     return read
 
 
-def _flag(value: Any, site: Site) -> bool:
+def _flag(value: Any, site: SettingPlace) -> bool:
     if isinstance(value, bool):
         return value
     words = {"1": True, "true": True, "yes": True, "on": True}
@@ -75,7 +78,7 @@ def _flag(value: Any, site: Site) -> bool:
     return words[text]
 
 
-def _seconds(value: Any, site: Site) -> float:
+def _seconds(value: Any, site: SettingPlace) -> float:
     try:
         if isinstance(value, bool):
             raise ValueError
@@ -87,7 +90,7 @@ def _seconds(value: Any, site: Site) -> float:
     return number
 
 
-def _texts(value: Any, site: Site) -> tuple[str, ...]:
+def _texts(value: Any, site: SettingPlace) -> tuple[str, ...]:
     if isinstance(value, str):
         value = [part.strip() for part in value.split(",") if part.strip()]
     if isinstance(value, (list, tuple, set, frozenset)) and all(
@@ -98,7 +101,7 @@ def _texts(value: Any, site: Site) -> tuple[str, ...]:
     raise site.error(value, "a list of texts, or one text with commas between them")
 
 
-def _roles(value: Any, site: Site) -> dict[str, tuple[str, ...]]:
+def _roles(value: Any, site: SettingPlace) -> dict[str, tuple[str, ...]]:
     accepted = 'an object from role to wells, as in {"ntc": ["plate:H12"]}'
     if isinstance(value, str):
         try:
@@ -113,7 +116,7 @@ def _roles(value: Any, site: Site) -> dict[str, tuple[str, ...]]:
         raise site.error(value, accepted) from None
 
 
-def _recover(value: Any, site: Site) -> dict[str, str]:
+def _recover(value: Any, site: SettingPlace) -> dict[str, str]:
     known = ", ".join(f'"{kind}": "{action}"' for kind, action in RECOVERIES.items())
     accepted = f'an object with any of {known} (or "pause" for one of them)'
     if isinstance(value, str):
@@ -129,14 +132,14 @@ def _recover(value: Any, site: Site) -> dict[str, str]:
     return {kind: action for kind, action in value.items() if action != "pause"}
 
 
-def _count(value: Any, site: Site) -> int:
+def _count(value: Any, site: SettingPlace) -> int:
     text = str(value).strip()
     if isinstance(value, bool) or not text.isascii() or not text.isdigit() or int(text) > 1000:
         raise site.error(value, "a whole number from 0 to 1000")
     return int(text)
 
 
-def _sidecar(value: Any, site: Site) -> str | None:
+def _sidecar(value: Any, site: SettingPlace) -> str | None:
     accepted = '"http://HOST:PORT", "https://HOST:PORT", or None'
     text = _optional_text(value, site, accepted)
     if text is None or text.lower() in ("off", "none"):
@@ -164,14 +167,14 @@ def _is_address(text: str) -> bool:
     return parts.scheme in ("http", "https") and bool(parts.hostname) and port_is_fine and plain
 
 
-def _token(value: Any, site: Site) -> str | None:
+def _token(value: Any, site: SettingPlace) -> str | None:
     text = _optional_text(value, site)
     if text is not None and not (text.isascii() and text.isprintable() and " " not in text):
         raise site.error(value, "printable ASCII without spaces")
     return text
 
 
-def _run_id(value: Any, site: Site) -> str | None:
+def _run_id(value: Any, site: SettingPlace) -> str | None:
     text = _optional_text(value, site)
     if text is not None:
         plain = text.replace("-", "").replace("_", "").replace(".", "")
@@ -180,7 +183,7 @@ def _run_id(value: Any, site: Site) -> str | None:
     return text
 
 
-READERS: dict[str, Callable[[Any, Site], Any]] = {
+READERS: dict[str, Callable[[Any, SettingPlace], Any]] = {
     "assay": _optional_text,
     "rules": _choice("on", "strict", "warn", "off"),
     "select": _texts,
@@ -189,6 +192,8 @@ READERS: dict[str, Callable[[Any, Site], Any]] = {
     "roles": _roles,
     "sidecar": _sidecar,
     "token": _token,
+    "robot_token": _token,
+    "robot_reason": _optional_text,
     "hold": _choice("boundary", "well", "off"),
     "on_fail": _choice(*POLICIES),
     "on_undecided": _choice(*POLICIES),

@@ -6,7 +6,7 @@ from ..lazy import door
 
 if TYPE_CHECKING:
     from .analysers import make_analyser, make_detector
-    from .analysis import Analyser, Evidence, Judged, RunAnalyser
+    from .analysis import Analyser, Evidence, Judged, RunAnalysis
     from .app import create_app
     from .auditing import Auditor
     from .config import SidecarConfig
@@ -15,17 +15,12 @@ if TYPE_CHECKING:
 __getattr__ = door(
     __name__,
     {
-        "Analyser": "analysis",
-        "Auditor": "auditing",
-        "Evidence": "analysis",
-        "Judged": "analysis",
-        "RunAnalyser": "analysis",
-        "SidecarConfig": "config",
-        "create_app": "app",
-        "make_analyser": "analysers",
-        "make_detector": "analysers",
-        "running_sidecar": "server",
-        "serve": "server",
+        "analysers": "make_analyser make_detector",
+        "analysis": "Analyser Evidence Judged RunAnalysis",
+        "app": "create_app",
+        "auditing": "Auditor",
+        "config": "SidecarConfig",
+        "server": "running_sidecar serve",
     },
 )
 
@@ -34,7 +29,7 @@ __all__ = [
     "Auditor",
     "Evidence",
     "Judged",
-    "RunAnalyser",
+    "RunAnalysis",
     "SidecarConfig",
     "create_app",
     "make_analyser",

@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 import cv2
 import numpy as np
 
+from ..account.pictures import whole_frame
 from ..errors import AegisError, CameraError
 from ..vision.camera import Camera, Frame
 from ..vision.detection import load_detector
@@ -32,7 +33,7 @@ _LEAST_TIP = 60
 
 
 @dataclass(frozen=True)
-class View:
+class AimedFrame:
     """One frame, measured.
 
     Attributes:
@@ -96,7 +97,7 @@ class Aim:
         self._looking = threading.Lock()
         self._detector: Detector | None = None
 
-    def look(self, number: int = 0) -> View:
+    def look(self, number: int = 0) -> AimedFrame:
         """A fresh frame, measured; several askers take turns.
 
         Args:
@@ -112,29 +113,38 @@ class Aim:
                 self._detector = load_detector(self._config.cascade.detector or "default")
             return measure(frame, self._detector)
 
-    def _frame(self, number: int) -> Frame:
+    def picture(self) -> bytes | None:
+        """What the first camera sees now, small, as JPEG; ``None`` where it gives nothing."""
+        try:
+            return whole_frame(self._frame(0, wait_s=1.0).image).jpeg
+        except AegisError:
+            return None
+
+    def _frame(self, number: int, wait_s: float | None = None) -> Frame:
         camera = self._cameras[number]
         # One that shows what runs announce has nothing of its own to show.
         last = None if isinstance(camera, FreeRunning) else self._last()
         try:
-            return last or camera.frame_after(time.monotonic(), self._config.camera.timeout_s)
+            return last or camera.frame_after(
+                time.monotonic(), wait_s or self._config.camera.timeout_s
+            )
         except AegisError:
             raise
         except Exception as error:  # whatever a driver raises
             raise CameraError(f"The camera failed: {type(error).__name__}: {error}") from error
 
 
-def measure(frame: Frame, detector: Detector) -> View:
+def measure(frame: Frame, detector: Detector) -> AimedFrame:
     """Sharpness, light and tip of one frame."""
     image = frame.image
     found = detector.detect(image)
     grey = cv2.cvtColor(image, cv2.COLOR_BGR2GRAY)
     box = None if found is None else (found.x, found.y, found.w, found.h)
-    view = View(
+    view = AimedFrame(
         frame,
         box,
         0.0 if found is None else float(found.confidence),
-        _sharpness(grey, box),
+        sharpness(grey, box),
         float(grey.mean()) / 255,
         float(np.mean(grey < _DARK)),
         float(np.mean(grey > _BLOWN)),
@@ -143,7 +153,8 @@ def measure(frame: Frame, detector: Detector) -> View:
     return view
 
 
-def _sharpness(grey: Image, box: tuple[float, float, float, float] | None) -> float:
+def sharpness(grey: Image, box: tuple[float, ...] | None) -> float:
+    """Variance of the Laplacian, of the part in a box (x, y, w, h, px) where there is one."""
     if box is not None:
         x, y, w, h = (round(value) for value in box)
         part = grey[max(y, 0) : y + h, max(x, 0) : x + w]
@@ -151,7 +162,7 @@ def _sharpness(grey: Image, box: tuple[float, float, float, float] | None) -> fl
     return float(cv2.Laplacian(grey, cv2.CV_64F).var())
 
 
-def _advice(view: View) -> list[str]:
+def _advice(view: AimedFrame) -> list[str]:
     said = []
     height, width = view.frame.image.shape[:2]
     if view.brightness < _TOO_DARK or view.dark > 1 - _MOST_LOST:

@@ -9,11 +9,11 @@ from typing import Any
 
 from ..errors import ConfigurationError, ModelError
 from ..vision.calibration import PRESETS
-from ..vision.column_reader import MeasuredColumns
 from ..vision.detection import load_detector
 from ..vision.gates import ConfirmingGate, OperatorGate, VolumetricGate
+from ..vision.lab_limits import LabLimits
 from ..vision.models import SHIPPED, load_model
-from ..vision.monitor import MonitorSettings, RunMonitor
+from ..vision.run_analyser_factory import MonitorSettings, RunAnalyserFactory
 from ..vision.scorers import make_scorer
 from ..vision.second_opinion import SpotCheck
 from ..vision.types import Detector, Scorer
@@ -64,7 +64,7 @@ def make_analyser(
         PRESETS[cascade.preset],
         **{name: value for name, value in given.items() if value is not None},
     )
-    return RunMonitor(
+    return RunAnalyserFactory(
         detector or make_detector(cascade),
         _world_model(cascade),
         MonitorSettings(
@@ -75,7 +75,6 @@ def make_analyser(
             cascade.first_channel,
         ),
         [*(known[name] for name in cascade.gates), OperatorGate()],
-        MeasuredColumns,
     )
 
 
@@ -87,7 +86,7 @@ def _world_model(cascade: CascadeSettings) -> Scorer | None:
 
 
 def load_scorer(path: Path) -> Scorer:
-    """A fitted scorer from the model file that ``aegis-ot fit`` wrote.
+    """A fitted scorer from the model file that ``aegis-ot fit`` wrote, with the lab's limits.
 
     Raises:
         ModelError: The file is damaged, or holds no scorer.
@@ -96,6 +95,7 @@ def load_scorer(path: Path) -> Scorer:
     try:
         kind: Any = type(make_scorer(model.kind))
         scorer: Scorer = kind.from_model(model)
+        scorer.lab_limits = LabLimits.from_model(model)  # type: ignore[attr-defined]
     except (ConfigurationError, AttributeError) as error:
         raise ModelError(f"{path}: holds a {model.kind!r} model, which is no scorer.") from error
     return scorer

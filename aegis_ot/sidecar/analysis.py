@@ -21,7 +21,7 @@ into JSON: numbers, texts, lists, mappings, numpy scalars and arrays. Keys the p
 Judged = tuple[Verdict, Evidence]
 
 
-class RunAnalyser(Protocol):
+class RunAnalysis(Protocol):
     """Judges the trajectories of one run. Called from one worker thread, never at once."""
 
     def observe(self, keyframe: Keyframe, frame: Frame) -> None:
@@ -35,9 +35,9 @@ class RunAnalyser(Protocol):
 
 
 class Analyser(Protocol):
-    """Makes one :class:`RunAnalyser` per run."""
+    """Makes one :class:`RunAnalysis` per run."""
 
-    def begin(self, run: str, history: Sequence[Judged] = ()) -> RunAnalyser:
+    def begin(self, run: str, history: Sequence[Judged] = ()) -> RunAnalysis:
         """A run starts, or goes on after the sidecar was restarted.
 
         Args:

@@ -20,33 +20,32 @@ from ..vision.types import Detector
 from ..vocabulary import Keyframe, to_json
 from .analysis import Analyser, Unscored
 from .auditing import Auditor
-from .bodies import body_as, read_body
+from .bodies import body_as
 from .cameras import open_cameras
 from .cameras.history import HISTORY_S
 from .config import SidecarConfig
-from .description import ERRORS, describe, takes
+from .description import ERRORS, describe
 from .error_answers import answer_errors, trouble_of
 from .pages import page_router
 from .reasoning_routes import opinion_router, opinions_of
 from .security import Doorkeeper
 from .service import Sidecar
-from .sessions import Session
+from .sessions import RunSession
 from .wire import (
     MAX_COUNT,
     MAX_WAIT,
     WIRE,
-    Abandon,
+    AbandonReport,
     Action,
     Decision,
     Finish,
-    Hold,
+    HoldReport,
     Incident,
-    Order,
-    Recovery,
+    OrderRequest,
+    RecoveryReport,
     RunStart,
     WireError,
     check_run,
-    parse,
 )
 
 PAGE_WAIT = 20.0
@@ -66,6 +65,15 @@ Ago = Annotated[float, Query(ge=-HISTORY_S, le=HISTORY_S, allow_inf_nan=False)]
 """How long before its arrival the moment of a keyframe was, s; negative: it is still to come."""
 Start = Annotated[str, Header(alias="X-Aegis-Start", max_length=200)]
 """The nonce of the start that speaks; empty from a guard that has none."""
+
+
+def _session(request: Request, run: Run, start: Start = "") -> RunSession:
+    session: RunSession = request.app.state.sidecar.session(run, start)
+    return session
+
+
+Session = Annotated[RunSession, Depends(_session)]
+"""The run of the address, if it is this start's."""
 
 
 def create_app(
@@ -122,6 +130,7 @@ def create_app(
     answer_errors(app)
     _robot_routes(app, sidecar)
     _reader_routes(app, sidecar)
+    _person_routes(app, sidecar)
     app.include_router(opinion_router(opinions))
     app.include_router(page_router(sidecar))
     return app
@@ -138,23 +147,22 @@ def _robot_routes(app: FastAPI, sidecar: Sidecar) -> None:
             "camera": {"kind": sidecar.camera.kind, "ok": camera.ok, "detail": camera.detail},
         }
 
-    @app.put("/v1/runs/{run}", openapi_extra=takes(RunStart))
-    async def register(run: Run, start: Annotated[RunStart, body_as(RunStart)]) -> dict[str, Any]:
+    @app.put("/v1/runs/{run}")
+    def register(run: Run, start: Annotated[RunStart, body_as(RunStart)]) -> dict[str, Any]:
         _must_match(run, start.run)
-        named = await run_in_threadpool(sidecar.register, start)
+        named = sidecar.register(start)
         told = {"nonce": start.nonce} if start.nonce else {}
         return {"run": named, "wire": WIRE, **told}
 
-    @app.post("/v1/runs/{run}/keyframes", openapi_extra=takes(Keyframe))
+    @app.post("/v1/runs/{run}/keyframes")
     async def keyframe(
         run: Run,
         arrived: Annotated[float, Depends(_now)],
-        request: Request,
+        keyframe: Annotated[Keyframe, body_as(Keyframe)],
         ago: Ago = 0.0,
         stands: Within = None,
         start: Start = "",
     ) -> dict[str, Any]:
-        keyframe = parse(Keyframe, await read_body(request))
         _must_match(run, keyframe.run)
         moment = arrived - ago
         until = math.inf if stands is None else arrived + stands
@@ -170,10 +178,7 @@ def _robot_routes(app: FastAPI, sidecar: Sidecar) -> None:
         } | _order(session)
 
     @app.get("/v1/runs/{run}/trajectories/{number}/verdict")
-    async def verdict(
-        run: Run, number: Number, wait: Wait = 0.0, start: Start = ""
-    ) -> dict[str, Any]:
-        session = await run_in_threadpool(sidecar.session, run, start)
+    async def verdict(number: Number, session: Session, wait: Wait = 0.0) -> dict[str, Any]:
         found = await sidecar.bell.until(lambda: session.ask(number), min(wait, MAX_WAIT))
         answer: dict[str, Any] = {"verdict": None if found is None else to_json(found)}
         if found is None and session.awaiting_operator(number):
@@ -182,61 +187,53 @@ def _robot_routes(app: FastAPI, sidecar: Sidecar) -> None:
 
     @app.get("/v1/runs/{run}/trajectories/{number}/action")
     async def action(
-        run: Run, number: Number, wait: Wait = 0.0, within: Within = None, start: Start = ""
+        number: Number, session: Session, wait: Wait = 0.0, within: Within = None
     ) -> dict[str, Any]:
-        session = await run_in_threadpool(sidecar.session, run, start)
         found = await sidecar.bell.until(
             lambda: session.action(number, within), min(wait, MAX_WAIT)
         )
         return {"action": found}
 
-    @app.post("/v1/runs/{run}/trajectories/{number}/abandon", openapi_extra=takes(Abandon))
-    async def abandon(
-        run: Run, number: Number, body: Annotated[Abandon, body_as(Abandon)], start: Start = ""
+    @app.post("/v1/runs/{run}/trajectories/{number}/abandon")
+    def abandon(
+        number: Number, body: Annotated[AbandonReport, body_as(AbandonReport)], session: Session
     ) -> dict[str, Any]:
-        session = await run_in_threadpool(sidecar.session, run, start)
-        await run_in_threadpool(session.abandon, number, body.reason)
+        session.abandon(number, body.reason)
         return {}
 
-    @app.post("/v1/runs/{run}/hold", openapi_extra=takes(Hold))
-    async def hold(
-        run: Run, body: Annotated[Hold, body_as(Hold)], start: Start = ""
+    @app.post("/v1/runs/{run}/hold")
+    def hold(
+        run: Run, body: Annotated[HoldReport, body_as(HoldReport)], _: Session
     ) -> dict[str, Any]:
-        await run_in_threadpool(sidecar.session, run, start)
-        await run_in_threadpool(sidecar.hold, run, body)
+        sidecar.hold(run, body)
         return {}
 
-    @app.post("/v1/runs/{run}/recovery", openapi_extra=takes(Recovery))
-    async def recovery(
-        run: Run, body: Annotated[Recovery, body_as(Recovery)], start: Start = ""
+    @app.post("/v1/runs/{run}/recovery")
+    def recovery(
+        run: Run, body: Annotated[RecoveryReport, body_as(RecoveryReport)], _: Session
     ) -> dict[str, Any]:
-        await run_in_threadpool(sidecar.session, run, start)
-        await run_in_threadpool(sidecar.recovery, run, body)
+        sidecar.recovery(run, body)
         return {}
 
-    @app.post("/v1/runs/{run}/incident", openapi_extra=takes(Incident))
-    async def incident(
-        run: Run, body: Annotated[Incident, body_as(Incident)], start: Start = ""
+    @app.post("/v1/runs/{run}/incident")
+    def incident(
+        run: Run, body: Annotated[Incident, body_as(Incident)], session: Session
     ) -> dict[str, Any]:
-        await run_in_threadpool(sidecar.session, run, start)
         if body.kind == "layer1":
-            await run_in_threadpool(sidecar.differs, run, body.text)
-            return {}
-        said = f"The robot was not served for {body.seconds:.0f} s. {body.text}".strip()
-        await run_in_threadpool(sidecar.note, run, body.kind, said, body.seconds)
+            sidecar.differs(run, body.text)
+        else:
+            said = f"The robot was not served for {body.seconds:.0f} s. {body.text}".strip()
+            session.record.outage(body.kind, said, body.seconds)
         return {}
 
-    @app.post("/v1/runs/{run}/finish", openapi_extra=takes(Finish))
-    async def finish(
-        run: Run, body: Annotated[Finish, body_as(Finish)], start: Start = ""
-    ) -> dict[str, Any]:
-        await run_in_threadpool(sidecar.session, run, start)
-        await run_in_threadpool(sidecar.finish, run, body)
+    @app.post("/v1/runs/{run}/finish")
+    def finish(run: Run, body: Annotated[Finish, body_as(Finish)], _: Session) -> dict[str, Any]:
+        sidecar.finish(run, body)
         return {}
 
 
 def _reader_routes(app: FastAPI, sidecar: Sidecar) -> None:
-    """For people, their page, and programs that follow runs."""
+    """For the page, and programs that follow runs."""
 
     async def news(after: int | None, wait: float) -> None:
         if after is not None:
@@ -261,46 +258,59 @@ def _reader_routes(app: FastAPI, sidecar: Sidecar) -> None:
         return {"runs": await run_in_threadpool(sidecar.runs, search, most), "version": version}
 
     @app.get("/v1/camera/view")
-    async def view(number: Annotated[int, Query(ge=0, le=100)] = 0) -> dict[str, Any]:
+    def view(number: Annotated[int, Query(ge=0, le=100)] = 0) -> dict[str, Any]:
         if number >= len(sidecar.aim.names):
             raise WireError(404, "no_such_camera", f"There is no camera number {number}.")
-        return (await run_in_threadpool(sidecar.aim.look, number)).to_json()
+        return sidecar.aim.look(number).to_json()
 
     @app.get("/v1/runs/{run}")
     async def overview(run: Run, after: After = None, wait: Wait = 0.0) -> dict[str, Any]:
         await news(after, wait)
-        return await run_in_threadpool(sidecar.overview, run)
+        return dict(await run_in_threadpool(sidecar.overview, run))
 
     @app.get("/v1/runs/{run}/frames/{sequence}.jpg")
-    async def frame(run: Run, sequence: Number) -> Response:
-        jpeg = await run_in_threadpool(sidecar.store.frame, run, sequence)
+    def frame(run: Run, sequence: Number) -> Response:
+        jpeg = sidecar.store.frame(run, sequence)
         if jpeg is None:
             raise WireError(404, "no_frame", f"Run {run!r} has no frame {sequence}.")
         return Response(
             jpeg, media_type="image/jpeg", headers={"Cache-Control": "private, max-age=86400"}
         )
 
-    @app.post("/v1/runs/{run}/trajectories/{number}/decision", openapi_extra=takes(Decision))
-    async def decide(
+    @app.get("/v1/runs/{run}/clips/{number}.webm")
+    def clip(run: Run, number: Number) -> Response:
+        video = sidecar.store.clip(run, number)
+        if video is None:
+            raise WireError(404, "no_clip", f"Run {run!r} has no clip of delivery {number}.")
+        return Response(video, media_type="video/webm")
+
+
+def _person_routes(app: FastAPI, sidecar: Sidecar) -> None:
+    """What people tell the robot, and say of its wells."""
+
+    @app.post("/v1/runs/{run}/trajectories/{number}/decision")
+    def decide(
         run: Run, number: Number, body: Annotated[Decision, body_as(Decision)]
     ) -> dict[str, Any]:
-        decided = await run_in_threadpool(lambda: sidecar.session(run).decide(number, body))
-        return {"verdict": to_json(decided)}
+        return {"verdict": to_json(sidecar.session(run).decide(number, body))}
 
-    @app.post("/v1/runs/{run}/trajectories/{number}/action", openapi_extra=takes(Action))
-    async def act(
-        run: Run, number: Number, body: Annotated[Action, body_as(Action)]
-    ) -> dict[str, Any]:
-        await run_in_threadpool(lambda: sidecar.session(run).act(number, body))
+    @app.post("/v1/runs/{run}/trajectories/{number}/action")
+    def act(run: Run, number: Number, body: Annotated[Action, body_as(Action)]) -> dict[str, Any]:
+        sidecar.session(run).act(number, body)
         return {}
 
-    @app.post("/v1/runs/{run}/order", openapi_extra=takes(Order))
-    async def order(run: Run, body: Annotated[Order, body_as(Order)]) -> dict[str, Any]:
-        await run_in_threadpool(lambda: sidecar.session(run).order(body))
+    @app.post("/v1/runs/{run}/close")
+    def close(run: Run, body: Annotated[Finish, body_as(Finish)]) -> dict[str, Any]:
+        sidecar.close_run(run, body)
+        return {}
+
+    @app.post("/v1/runs/{run}/order")
+    def order(run: Run, body: Annotated[OrderRequest, body_as(OrderRequest)]) -> dict[str, Any]:
+        sidecar.session(run).order(body)
         return {}
 
 
-def _order(session: Session) -> dict[str, Any]:
+def _order(session: RunSession) -> dict[str, Any]:
     """What the moving robot is to do goes with every answer that it waits for."""
     order = session.ordered()
     return {} if order is None else {"order": order}

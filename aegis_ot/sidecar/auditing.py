@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import logging
-import queue
-import threading
 from collections.abc import Callable
 from typing import Any, Protocol
 
 from ..errors import AegisError
+from .background import BackgroundWorker
 from .journal import event
 from .store import Store
 
@@ -28,7 +27,7 @@ class Auditor(Protocol):
         """End the audit that is under way; it raises AegisError. Idempotent."""
 
 
-class Audits:
+class Audits(BackgroundWorker[str]):
     """Audits runs as they end, and keeps what was found.
 
     Args:
@@ -46,40 +45,32 @@ class Audits:
         done: Callable[[], None],
     ) -> None:
         self._auditor, self._store, self._settled, self._done = auditor, store, settled, done
-        self._runs: queue.SimpleQueue[str] = queue.SimpleQueue()
-        self._closed = threading.Event()
-        self._thread = threading.Thread(target=self._work, name="audits", daemon=True)
-        self._thread.start()
+        super().__init__("audits")
 
     def add(self, run: str) -> None:
         """A run has ended. Never blocks."""
-        self._runs.put(run)
+        self._tasks.put(run)
 
-    def close(self) -> None:
+    def close(self, timeout: float = 5.0) -> None:
         """End the thread, and the audit in hand. Idempotent."""
-        self._closed.set()
-        self._runs.put("")
+        self._closing.set()
         self._auditor.stop()
-        self._thread.join(5.0)
+        super().close(timeout)
 
-    def _work(self) -> None:
-        while True:
-            run = self._runs.get()
-            if self._closed.is_set():
-                return
-            if not self._settled(run):
-                self._closed.wait(ASKS_S)
-                self._runs.put(run)  # others need not wait for its last verdicts
-                continue
-            try:
-                if not self._store.verdicts(run):
-                    continue  # nothing was watched
-                found = self._auditor.audit(run)
-                self._store.add_audit(run, found)
-                event("audit", run=run, suspects=sum(s["stands_out"] for s in found["suspects"]))
-                self._done()
-            except AegisError as error:
-                if not self._closed.is_set():
-                    log.warning("Run %s was not audited: %s", run, error)
-            except Exception:
-                log.exception("Run %s was not audited", run)
+    def _do(self, task: str) -> None:
+        if self._closing.is_set():
+            return
+        if not self._settled(task):
+            self._closing.wait(ASKS_S)
+            self._tasks.put(task)  # others need not wait for its last verdicts
+            return
+        try:
+            if not self._store.verdicts(task):
+                return  # nothing was watched
+            found = self._auditor.audit(task)
+            self._store.add_audit(task, found)
+            event("audit", run=task, suspects=sum(s["stands_out"] for s in found["suspects"]))
+            self._done()
+        except AegisError as error:
+            if not self._closing.is_set():
+                log.warning("Run %s was not audited: %s", task, error)

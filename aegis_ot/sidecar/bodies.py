@@ -13,11 +13,12 @@ T = TypeVar("T")
 
 
 def body_as(shape: type[T]) -> Any:
-    """A dependency that reads the request's body as ``shape``."""
+    """A dependency that reads the request's body as ``shape``; the description finds it there."""
 
     async def read(request: Request) -> T:
         return parse(shape, await read_body(request))
 
+    read.shape = shape  # type: ignore[attr-defined]
     return Depends(read)
 
 

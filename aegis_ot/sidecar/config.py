@@ -7,6 +7,7 @@ import os
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Annotated, Any, Literal
+from urllib.parse import urlsplit
 
 from platformdirs import user_data_path
 from pydantic import (
@@ -20,6 +21,7 @@ from pydantic import (
 )
 
 from ..errors import ConfigurationError
+from ..vocabulary import Gate
 from .settings_file import explain, merge, nest, read_settings_file
 
 DEFAULT_PORT = 7645
@@ -33,6 +35,8 @@ ENVIRONMENT = {
     "AEGIS_OT_SIDECAR_DATA": ("data",),
     "AEGIS_OT_SIDECAR_CAMERA": ("camera", "spec"),
     "AEGIS_OT_SIDECAR_NOTIFY": ("notifications", "urls"),
+    "AEGIS_OT_SIDECAR_WEBHOOK": ("webhook", "url"),
+    "AEGIS_OT_SIDECAR_WEBHOOK_SECRET": ("webhook", "secret"),
     "AEGIS_OT_SIDECAR_URL": ("url",),
     "AEGIS_OT_SIDECAR_LOG": ("log",),
     "AEGIS_OT_MODEL": ("model", "name"),
@@ -133,9 +137,10 @@ class CascadeSettings(Section):
     @field_validator("gates")
     @classmethod
     def _known_gates(cls, value: tuple[str, ...]) -> tuple[str, ...]:
-        unknown = sorted(set(value) - {"volumetric", "vlm"})
+        known = [gate.value for gate in Gate if gate.traits.may_be_asked_for]
+        unknown = sorted(set(value).difference(known))
         if unknown:
-            raise ValueError(f"unknown gate {unknown[0]!r}; use volumetric or vlm")
+            raise ValueError(f"unknown gate {unknown[0]!r}; use {' or '.join(known)}")
         return value
 
 
@@ -159,6 +164,32 @@ class NotificationSettings(Section):
     @classmethod
     def _split(cls, value: Any) -> Any:
         return tuple(value.split()) if isinstance(value, str) else value
+
+
+class WebhookSettings(Section):
+    """Where the record of a run goes when it has ended: an ELN or LIMS.
+
+    Attributes:
+        url: ``http://`` or ``https://`` address that takes a POST; ``None``: nothing is sent.
+        secret: Signs what is sent (HMAC-SHA-256); required with ``url``, at least 16 characters.
+    """
+
+    url: SecretStr | None = None
+    secret: SecretStr | None = None
+
+    @model_validator(mode="after")
+    def _usable(self) -> WebhookSettings:
+        if self.url is None:
+            return self
+        url = urlsplit(self.url.get_secret_value())
+        if url.scheme not in ("http", "https") or not url.hostname:
+            raise ValueError("the web hook's url must begin with http:// or https://")
+        if self.secret is None or len(self.secret.get_secret_value()) < LEAST_TOKEN:
+            raise ValueError(
+                f"the web hook needs a secret of at least {LEAST_TOKEN} characters, so that who "
+                "receives a record can tell that it is yours"
+            )
+        return self
 
 
 class RetentionSettings(Section):
@@ -231,6 +262,7 @@ class SidecarConfig(Section):
     cascade: CascadeSettings = CascadeSettings()
     operator: OperatorSettings = OperatorSettings()
     notifications: NotificationSettings = NotificationSettings()
+    webhook: WebhookSettings = WebhookSettings()
     model: ModelSettings = ModelSettings()
     gate_model: GateModelSettings = GateModelSettings()
     retention: RetentionSettings = RetentionSettings()

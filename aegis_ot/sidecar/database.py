@@ -7,11 +7,12 @@ import json
 import os
 import sqlite3
 import threading
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import IO, Any, TypeVar
 
 from ..errors import StoreError
+from .chain import Chain, File
 from .frames import FRAMES
 from .schema import migrate
 
@@ -90,6 +91,9 @@ class Database:
                     if said != "ok":
                         raise sqlite3.DatabaseError(str(said).splitlines()[-1])
                 migrate(db)
+                self._chain = Chain(db, self.folder)
+                if alone:
+                    self._chain.check_key()
             except BaseException:
                 db.close()
                 raise
@@ -100,10 +104,27 @@ class Database:
         if held is not None:
             held.close()
 
-    def _write(self, statement: str, values: tuple[Any, ...]) -> int:
-        """Number of rows changed."""
-        with self._lock, self._plain_errors("write to"):
-            return self._db.execute(statement, values).rowcount
+    def _write(
+        self, statement: str, values: tuple[Any, ...], run: str = "", files: Iterable[File] = ()
+    ) -> int:
+        """Number of rows changed. They are chained, and so are files of a run."""
+        with self._transaction("write to"):
+            changed = self._db.execute(statement, values).rowcount if statement else 0
+            self._chain.append(run, files)
+            return changed
+
+    @contextlib.contextmanager
+    def _transaction(self, what: str, begin: str = "BEGIN IMMEDIATE") -> Iterator[None]:
+        """Whole or not at all; nobody else reads or writes meanwhile. Raises StoreError."""
+        with self._lock, self._plain_errors(what):
+            self._db.execute(begin)
+            try:
+                yield
+                self._db.execute("COMMIT")
+            except BaseException:
+                with contextlib.suppress(sqlite3.Error):
+                    self._db.execute("ROLLBACK")
+                raise
 
     def _read(self, statement: str, *values: Any) -> list[sqlite3.Row]:
         with self._lock, self._plain_errors("read from"):

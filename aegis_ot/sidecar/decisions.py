@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
-from typing import Any
 
+from ..account.overview import DecisionEntry
 from ..vocabulary import ChannelOutcome, ChannelVerdict, Gate, Outcome, Verdict
 
 _FLAGGED = (ChannelOutcome.FAIL, ChannelOutcome.UNDECIDED)
 
 
-def effective(verdict: Verdict, decisions: list[dict[str, Any]]) -> Verdict:
+def effective(verdict: Verdict, decisions: Sequence[DecisionEntry]) -> Verdict:
     """The verdict as it stands after the operator's last decision."""
     if not decisions:
         return verdict

@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any
 
 from fastapi import FastAPI
 from fastapi.openapi.utils import get_openapi
+from fastapi.routing import APIRoute
 from pydantic import TypeAdapter
 
-from ..vocabulary import Keyframe
-from .wire import Abandon, Action, Decision, Finish, Hold, Incident, Order, Recovery, RunStart
-
-BODIES = (RunStart, Keyframe, Abandon, Hold, Recovery, Incident, Finish, Decision, Action, Order)
 _REF = "#/components/schemas/"
 _ERROR = {
     "type": "object",
@@ -44,12 +42,6 @@ ERRORS: dict[int | str, dict[str, Any]] = {
 }
 
 
-def takes(shape: type[Any]) -> dict[str, Any]:
-    """``openapi_extra`` of a route whose body is ``shape``, one of :data:`BODIES`."""
-    schema = {"$ref": f"{_REF}{shape.__name__}"}
-    return {"requestBody": {"required": True, "content": {"application/json": {"schema": schema}}}}
-
-
 def describe(app: FastAPI) -> dict[str, Any]:
     """The description of the application's routes."""
     described = get_openapi(
@@ -60,11 +52,22 @@ def describe(app: FastAPI) -> dict[str, Any]:
     )
     schemas = described.setdefault("components", {}).setdefault("schemas", {})
     schemas["Error"] = _ERROR
-    for shape in BODIES:
+    for path, method, shape in _bodies(app):
         schema = TypeAdapter(shape).json_schema(ref_template=_REF + "{model}")
         schemas |= schema.pop("$defs", {})
         schemas[shape.__name__] = schema
+        content = {"application/json": {"schema": {"$ref": f"{_REF}{shape.__name__}"}}}
+        described["paths"][path][method]["requestBody"] = {"required": True, "content": content}
     described["components"]["schemas"] = schemas
     described["components"]["securitySchemes"] = {"token": {"type": "http", "scheme": "bearer"}}
     described["security"] = [{"token": []}]
     return described
+
+
+def _bodies(app: FastAPI) -> Iterator[tuple[str, str, type[Any]]]:
+    """Path, method and shape of each body that :func:`~.bodies.body_as` reads."""
+    for route in app.routes:
+        if isinstance(route, APIRoute) and route.include_in_schema:
+            for dependency in route.dependant.dependencies:
+                if (shape := getattr(dependency.call, "shape", None)) is not None:
+                    yield from ((route.path_format, m.lower(), shape) for m in route.methods or ())

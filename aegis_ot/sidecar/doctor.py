@@ -18,15 +18,16 @@ from .._version import __version__
 from ..errors import AegisError, CameraError, StoreError
 from ..reasoning import make_backend
 from ..reasoning.backends.service import ServiceBackend
+from ..settings import load_settings
 from ..vision.camera import Camera
 from ..vision.models import load_model
-from ..vision.reach import Smallest, normals_in, shortcomings, smallest_in
+from ..vision.reach import Smallest, limits_in, normals_in, shortcomings, smallest_in
 from ..vocabulary import counted, without_secrets
 from .aiming import Aim
+from .alerts.notifications import Notifier
 from .analysers import load_scorer
 from .cameras import FreeRunning, open_camera
 from .config import CameraSettings, SidecarConfig, is_loopback
-from .notifications import Notifier
 from .store import DATABASE, Store
 from .token_file import TOKEN_FILE
 
@@ -43,7 +44,7 @@ _DIRECT = urllib.request.build_opener(urllib.request.ProxyHandler({}))
 
 
 @dataclass(frozen=True)
-class Check:
+class Examination:
     """One thing that was looked at.
 
     Attributes:
@@ -59,7 +60,7 @@ class Check:
     todo: str = ""
 
 
-def examine(config: SidecarConfig, robot: str | None = None) -> Iterator[Check]:
+def examine(config: SidecarConfig, robot: str | None = None) -> Iterator[Examination]:
     """Look at everything, one after the other; nothing is changed.
 
     Args:
@@ -78,46 +79,46 @@ def examine(config: SidecarConfig, robot: str | None = None) -> Iterator[Check]:
     yield _robot(robot) if robot else _clock()
 
 
-def _versions() -> Check:
+def _versions() -> Examination:
     told = [f"aegis_ot {__version__}", f"Python {platform.python_version()}"]
     for name in _PACKAGES:
         try:
             told.append(f"{name} {version(name)}")
         except PackageNotFoundError:
             told.append(f"{name} none")
-    return Check("versions", "ok", ", ".join(told))
+    return Examination("versions", "ok", ", ".join(told))
 
 
-def _disk(config: SidecarConfig) -> Check:
+def _disk(config: SidecarConfig) -> Examination:
     folder = next(p for p in (config.data, *config.data.parents) if p.exists())
     free = shutil.disk_usage(folder).free / 1e9
     said = f"{free:.1f} GB free for {config.data}"
     if free >= _LEAST_FREE_GB:
-        return Check("disk", "ok", said)
-    return Check("disk", "bad", said, "Free some space, or set retention.gigabytes.")
+        return Examination("disk", "ok", said)
+    return Examination("disk", "bad", said, "Free some space, or set retention.gigabytes.")
 
 
-def _store(config: SidecarConfig, at_work: bool) -> Check:
+def _store(config: SidecarConfig, at_work: bool) -> Examination:
     if not (config.data / DATABASE).exists():
-        return Check("store", "ok", f"none yet in {config.data}; the sidecar makes it")
+        return Examination("store", "ok", f"none yet in {config.data}; the sidecar makes it")
     try:
         store = Store(config.data, alone=True)
         count = len(store.runs())
         store.close()
     except StoreError as error:
         if at_work:
-            return Check("store", "ok", "in use by the sidecar that is at work")
-        return Check("store", "bad", str(error), "See above; until then no sidecar starts.")
-    return Check("store", "ok", f"whole, {count} runs")
+            return Examination("store", "ok", "in use by the sidecar that is at work")
+        return Examination("store", "bad", str(error), "See above; until then no sidecar starts.")
+    return Examination("store", "ok", f"whole, {count} runs")
 
 
-def _token(config: SidecarConfig) -> Check:
+def _token(config: SidecarConfig) -> Examination:
     if is_loopback(config.host):
         said = "not needed" if config.token is None else "set"
         todo = "For a robot in the network, start with --host 0.0.0.0; a token is then made."
-        return Check("token", "ok", f"{said}: only this machine is answered", todo)
+        return Examination("token", "ok", f"{said}: only this machine is answered", todo)
     kept = (config.data / TOKEN_FILE).exists()
-    return Check(
+    return Examination(
         "token", "ok", "kept in the data folder" if kept else "set, or made at first start"
     )
 
@@ -134,18 +135,18 @@ def _sidecar(config: SidecarConfig) -> dict[str, Any] | None:
     return said if isinstance(said, dict) and said.get("name") == "aegis-ot" else None
 
 
-def _camera_checks(config: SidecarConfig, working: dict[str, Any] | None) -> Iterator[Check]:
+def _camera_checks(config: SidecarConfig, working: dict[str, Any] | None) -> Iterator[Examination]:
     if working is not None:
         camera = working.get("camera", {})
         state = "ok" if camera.get("ok") else "bad"
         said = f"{camera.get('kind')}, as the sidecar at work says: {camera.get('detail') or state}"
-        yield Check("camera", state, said, "" if state == "ok" else "See its page, Camera.")
+        yield Examination("camera", state, said, "" if state == "ok" else "See its page, Camera.")
         return
     for settings in config.cameras or (config.camera,):
         try:
             camera = open_camera(settings)
         except AegisError as error:
-            yield Check("camera", "bad", str(error), "Name another camera (--camera).")
+            yield Examination("camera", "bad", str(error), "Name another camera (--camera).")
             continue
         try:
             yield from _look(config, settings, camera)
@@ -153,7 +154,7 @@ def _camera_checks(config: SidecarConfig, working: dict[str, Any] | None) -> Ite
             camera.close()
 
 
-def _look(config: SidecarConfig, settings: CameraSettings, camera: Camera) -> Iterator[Check]:
+def _look(config: SidecarConfig, settings: CameraSettings, camera: Camera) -> Iterator[Examination]:
     shown = without_secrets(settings.spec)
     try:
         if isinstance(camera, FreeRunning):
@@ -161,13 +162,13 @@ def _look(config: SidecarConfig, settings: CameraSettings, camera: Camera) -> It
         view = Aim(config, camera, lambda: None).look()
     except CameraError as error:
         todo = "Look at its cable and power; close other programs that use it."
-        yield Check("camera", "bad", f"{shown}: {error}", todo)
+        yield Examination("camera", "bad", f"{shown}: {error}", todo)
         return
     except AegisError as error:
-        yield Check("detector", "bad", str(error), "Leave cascade.detector out, or mend it.")
+        yield Examination("detector", "bad", str(error), "Leave cascade.detector out, or mend it.")
         return
     height, width = view.frame.image.shape[:2]
-    yield Check("camera", "ok", f"{shown}, {width} x {height} px")
+    yield Examination("camera", "ok", f"{shown}, {width} x {height} px")
     light = (
         f"brightness {view.brightness:.0%}, too dark {view.dark:.0%}, blown out {view.blown:.0%}"
     )
@@ -175,15 +176,15 @@ def _look(config: SidecarConfig, settings: CameraSettings, camera: Camera) -> It
     about_tip = [said for said in advice if "tip" in said and "focus" not in said]
     other = [said for said in advice if said not in about_tip]
     state = "warning" if other else "ok"
-    yield Check(
+    yield Examination(
         "sharpness and light", state, f"sharpness {view.sharpness:.0f}, {light}", " ".join(other)
     )
     found = "no tip" if view.tip is None else f"a tip, {view.confidence:.0%} sure"
     state = "warning" if about_tip else "ok"
-    yield Check("detector", state, f"on a live frame: {found}", " ".join(about_tip))
+    yield Examination("detector", state, f"on a live frame: {found}", " ".join(about_tip))
 
 
-def _wait(camera: FreeRunning, settings: CameraSettings) -> Check:
+def _wait(camera: FreeRunning, settings: CameraSettings) -> Examination:
     """What a keyframe costs: a frame counts when it was surely exposed after the trigger."""
     camera.frame_after(time.monotonic(), _FIRST_FRAME_S)  # it has only just been opened
     waits = []
@@ -194,90 +195,97 @@ def _wait(camera: FreeRunning, settings: CameraSettings) -> Check:
     name, longest = "camera's delay", max(waits)
     said = f"the robot stands up to {longest:.2f} s for each keyframe"
     if longest < _LONG_WAIT * settings.timeout_s:
-        return Check(name, "ok", said)
+        return Examination(name, "ok", said)
     todo = "Have it send more frames a second, or set camera.timeout_s higher."
     state = "warning" if longest < settings.timeout_s else "bad"
-    return Check(name, state, f"{said}, and a frame is given {settings.timeout_s:g} s", todo)
+    return Examination(name, state, f"{said}, and a frame is given {settings.timeout_s:g} s", todo)
 
 
-def _world_model(config: SidecarConfig) -> Iterator[Check]:
+def _world_model(config: SidecarConfig) -> Iterator[Examination]:
     name, path = "world model", config.cascade.model
     if path is None and config.cascade.preset == "paper":
-        yield Check(name, "ok", "none: every run learns from its own first wells")
+        yield Examination(name, "ok", "none: every run learns from its own first wells")
         return
     if path is None:
         said = "the shipped one, of simulated wells: what it would catch here is not known"
-        yield Check(name, "ok", said, "aegis-ot fit makes one of your own wells, which tells it.")
+        yield Examination(
+            name, "ok", said, "aegis-ot fit makes one of your own wells, which tells it."
+        )
         return
     try:
         load_scorer(path)
         model = load_model(path)
     except AegisError as error:
         todo = "Name another file in cascade.model, or leave it out; until then no sidecar starts."
-        yield Check(name, "bad", str(error), todo)
+        yield Examination(name, "bad", str(error), todo)
         return
     lacks = " ".join(shortcomings(model))
     said = f"{path}: {model.kind}, of {counted(normals_in(model), 'normal well')}"
-    yield Check(name, "warning" if lacks else "ok", said, lacks)
+    yield Examination(name, "warning" if lacks else "ok", said, lacks)
     yield from (_smallest(one) for one in smallest_in(model))
+    yield from (Examination("own limits", "ok", said) for said in limits_in(model))
 
 
-def _smallest(one: Smallest) -> Check:
+def _smallest(one: Smallest) -> Examination:
     if one.smallest_ul is None:
         todo = "Bring the camera closer, or dye the liquid."
-        return Check("smallest volume", "warning", str(one), todo)
-    return Check("smallest volume", "ok", str(one))
+        return Examination("smallest volume", "warning", str(one), todo)
+    return Examination("smallest volume", "ok", str(one))
 
 
-def _language_model(config: SidecarConfig) -> Check:
+def _language_model(config: SidecarConfig) -> Examination:
     name, chosen = "language model", config.model.name
     if chosen is None:
-        return Check(name, "ok", "none is set: the volumetric gate and the operator decide")
+        return Examination(name, "ok", "none is set: the volumetric gate and the operator decide")
     try:
         model = make_backend(chosen)
     except AegisError as error:
-        return Check(name, "bad", str(error), "Mend model.name.")
+        return Examination(name, "bad", str(error), "Mend model.name.")
     problem = model.key_problem() if isinstance(model, ServiceBackend) else ""
     if problem:
-        return Check(name, "bad", f"{chosen} cannot be asked", problem)
-    return Check(name, "ok", f"{chosen} can be asked (it was not)")
+        return Examination(name, "bad", f"{chosen} cannot be asked", problem)
+    return Examination(name, "ok", f"{chosen} can be asked (it was not)")
 
 
-def _notifications(config: SidecarConfig) -> Check:
+def _notifications(config: SidecarConfig) -> Examination:
     urls = config.notifications.urls
     if not urls:
         todo = "Set notifications.urls to be told away from the bench."
-        return Check("notifications", "ok", "none are set", todo)
+        return Examination("notifications", "ok", "none are set", todo)
     try:
         Notifier(urls).close(0.1)
     except AegisError as error:
-        return Check("notifications", "bad", str(error), "Mend the address.")
-    return Check("notifications", "ok", f"{len(urls)} addresses are understood (none was used)")
+        return Examination("notifications", "bad", str(error), "Mend the address.")
+    return Examination(
+        "notifications", "ok", f"{len(urls)} addresses are understood (none was used)"
+    )
 
 
-def _robot(address: str) -> Check:
+def _robot(address: str) -> Examination:
     url = address.rstrip("/") if "://" in address else f"http://{address}"
     if url.count(":") < 2:
-        url += ":31950"
-    request = urllib.request.Request(f"{url}/health", headers={"Opentrons-Version": "*"})
+        url += ":32313" if url.startswith("https") else ":31950"
+    request = urllib.request.Request(f"{url}/health", headers=load_settings().robot_headers())
     asked = time.time()
     try:
         with _DIRECT.open(request, timeout=5) as answer:
             said, date = json.loads(answer.read(100_000)), answer.headers.get("Date")
     except (OSError, ValueError) as error:
         todo = "See whether it is on, in this network, and whether the address is right."
-        return Check("robot", "bad", f"{url} does not answer: {error}", todo)
+        if isinstance(error, urllib.error.HTTPError) and error.code in (401, 403):
+            todo = "Its access is controlled: give its token as AEGIS_OT_ROBOT_TOKEN."
+        return Examination("robot", "bad", f"{url} does not answer: {error}", todo)
     told = (
         f"{said.get('name', '?')}, {said.get('robot_model', '?')}, {said.get('api_version', '?')}"
     )
     off = parsedate_to_datetime(date).timestamp() - asked if date else 0.0
     if abs(off) > _CLOCK_S:
         todo = "Set the clocks of robot and workstation by the network (NTP)."
-        return Check("robot", "warning", f"{told}; its clock is off by {off:.0f} s", todo)
-    return Check("robot", "ok", f"{told}; its clock agrees within {_CLOCK_S:g} s")
+        return Examination("robot", "warning", f"{told}; its clock is off by {off:.0f} s", todo)
+    return Examination("robot", "ok", f"{told}; its clock agrees within {_CLOCK_S:g} s")
 
 
-def _clock() -> Check:
+def _clock() -> Examination:
     now = time.strftime("%Y-%m-%d %H:%M:%S %Z")
     todo = "Compare it with the robot's: aegis-ot doctor --robot ADDRESS."
-    return Check("clock", "ok", now, todo)
+    return Examination("clock", "ok", now, todo)

@@ -39,6 +39,29 @@ class FrameFiles:
         partial.write_bytes(jpeg)
         partial.replace(path)
 
+    def clips(self, run: str) -> set[int]:
+        """Deliveries of which a clip was kept."""
+        return {int(file.stem[5:]) for file in self.path(run, 0).parent.glob("clip-*.webm")}
+
+    def clip_path(self, run: str, trajectory: int) -> Path:
+        """Where the clip of a delivery is, or will be."""
+        return self.path(run, 0).parent / f"clip-{trajectory}.webm"
+
+    def files(self, run: str) -> dict[tuple[str, str], Path]:
+        """The frames and clips that lie there, by kind and number; a picture that is named as no
+        frame is, ``2.jpg``, by that name."""
+        folder = self.path(run, 0).parent
+        found = {}
+        for file in folder.glob("*.jpg"):
+            number = int(file.stem) if file.stem.isdecimal() else -1
+            is_ours = file.name == self.path(run, number).name
+            found["frames", str(number) if is_ours else file.name] = file
+        return found | {("clips", file.stem[5:]): file for file in folder.glob("clip-*.webm")}
+
+    def file(self, run: str, kind: str, number: int) -> Path:
+        """Where a frame or clip is, or will be."""
+        return (self.path if kind == "frames" else self.clip_path)(run, number)
+
     def size(self, run: str) -> int:
         """What a run's frames take, bytes."""
         folder = self._folder / folder_name(run)

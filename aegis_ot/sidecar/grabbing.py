@@ -13,9 +13,8 @@ from ..errors import AegisError, CameraError
 from ..vision.camera import Camera, Frame
 from ..vision.view import ViewWatch
 from ..vocabulary import Keyframe
+from .alerts import Alerts, Notice
 from .cameras import BoundCameras, FreeRunning, Health, camera_health
-from .notices import Notice
-from .run_trouble import Troubles
 
 log = logging.getLogger(__name__)
 
@@ -26,17 +25,17 @@ class Grabber:
     Args:
         camera: Where frames come from.
         timeout_s: Longest wait for a frame, s.
-        troubles: Told when the camera gives no frame that tells anything, and when it does again.
+        alerts: Told when the camera gives no frame that tells anything, and when it does again.
 
     Attributes:
         last: The last frame that counted.
     """
 
-    def __init__(self, camera: Camera, timeout_s: float, troubles: Troubles) -> None:
+    def __init__(self, camera: Camera, timeout_s: float, alerts: Alerts) -> None:
         self.last: Frame | None = None
         self._camera = camera
         self._timeout_s = timeout_s
-        self._troubles = troubles
+        self._alerts = alerts
         self._said = ""
         self._in_trouble: set[str] = set()
         # A camera that is told what to show must not hear of another keyframe in between.
@@ -78,7 +77,7 @@ class Grabber:
                 error = CameraError(f"The camera failed: {type(error).__name__}: {error}")
             self._said = str(error)
             self._in_trouble.add(keyframe.run)
-            self._troubles.tell(
+            self._alerts.tell(
                 Notice(
                     keyframe.run,
                     "camera",
@@ -91,7 +90,7 @@ class Grabber:
         self.last = frame
         if keyframe.run in self._in_trouble:
             self._in_trouble.discard(keyframe.run)
-            self._troubles.over(keyframe.run, "camera")
+            self._alerts.over(keyframe.run, "camera")
         return frame
 
     def _usable(

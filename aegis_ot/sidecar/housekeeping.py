@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import logging
-import threading
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 
 from ..errors import StoreError
+from .background import BackgroundWorker
 from .config import RetentionSettings
 from .journal import event
 from .store import SILENT, Store
@@ -59,6 +59,7 @@ def tidy(
     known = store.ages() if ages is None else ages
     closed = tuple(run for run in running if known.get(run, 0.0) > 3600 * settings.silent_h)
     for run in () if pretend else closed:
+        store.forget_torn(run)
         store.close_silent(run, f"The robot has said nothing for {settings.silent_h:g} h.")
         event("silent", run=run)
     known = {run: 0.0 if run in closed else age for run, age in known.items()}
@@ -91,7 +92,7 @@ def _too_much(
     return tuple(removed), freed
 
 
-class Housekeeper:
+class Housekeeper(BackgroundWorker[float]):
     """Tidies at once and then every ten minutes, in a thread of its own.
 
     Args:
@@ -110,14 +111,8 @@ class Housekeeper:
     ) -> None:
         self._store, self._settings, self._changed = store, settings, changed
         self._heard = heard
-        self._closed = threading.Event()
-        self._thread = threading.Thread(target=self._work, name="housekeeper", daemon=True)
-        self._thread.start()
-
-    def close(self) -> None:
-        """End the thread. Idempotent."""
-        self._closed.set()
-        self._thread.join(5.0)
+        self._pause_s = 0.0
+        super().__init__("housekeeper")
 
     def look(self) -> None:
         """Once: who is there still, then what is too old. Raises StoreError."""
@@ -126,13 +121,12 @@ class Housekeeper:
         if done.closed or done.removed:
             self._changed(done)
 
-    def _work(self) -> None:
-        while True:
-            try:
-                self.look()
-            except StoreError as error:
-                log.warning("The store could not be tidied: %s", error)
-            except Exception:
-                log.exception("The store could not be tidied")
-            if self._closed.wait(EVERY_S):
-                return
+    def _next(self) -> float | None:
+        pause, self._pause_s = self._pause_s, EVERY_S
+        return None if self._closing.wait(pause) else pause
+
+    def _do(self, task: float) -> None:
+        try:
+            self.look()
+        except StoreError as error:
+            log.warning("The store could not be tidied: %s", error)

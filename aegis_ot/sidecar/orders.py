@@ -4,10 +4,11 @@ it is paused."""
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
-from .wire import Action, Order, WireError
+from ..account.overview import ActionEntry, HoldEntry
+from .wire import Action, OrderRequest, WireError
 
 Told = dict[str, Any]
 
@@ -26,7 +27,7 @@ class Orders:
         pending: An order that the robot has not taken up: ``action``, ``by``, ``note``, ``at``.
     """
 
-    def __init__(self, actions: Sequence[Told], holds: Sequence[Told]) -> None:
+    def __init__(self, actions: Sequence[ActionEntry], holds: Sequence[HoldEntry]) -> None:
         self.pending: Told | None = None
         self._answers: dict[int, tuple[float, Told]] = {}
         now, monotonic = time.time(), time.monotonic()
@@ -42,7 +43,7 @@ class Orders:
         if stop is not None:
             self.pending = _words(stop) | {"at": stop["at"]}
 
-    def require_going_on(self, told: Action | Order) -> None:
+    def require_going_on(self, told: Action | OrderRequest) -> None:
         """A run that is to end is told nothing else.
 
         Raises:
@@ -57,7 +58,7 @@ class Orders:
                 "If it still moves, press stop on its own screen.",
             )
 
-    def order(self, order: Order, at: float) -> None:
+    def order(self, order: OrderRequest, at: float) -> None:
         """A robot that moves is to do this; the last order counts, a stop for good."""
         if not self._ending:
             self.pending = order.model_dump() | {"at": at}
@@ -72,7 +73,7 @@ class Orders:
         whether the robot is paused there still."""
         self._answers[trajectory] = time.monotonic(), action.model_dump()
         if action.action == "stop":
-            self.order(Order(action="stop", by=action.by, note=action.note), at)
+            self.order(OrderRequest(action="stop", by=action.by, note=action.note), at)
 
     def answered(self, trajectory: int, within_s: float | None) -> Told | None:
         """The last answer at this trajectory, unless it is older: then it was to another pause.
@@ -90,5 +91,5 @@ class Orders:
         return self.pending is not None and self.pending["action"] == "stop"
 
 
-def _words(told: Told) -> Told:
+def _words(told: Mapping[str, Any]) -> Told:
     return {name: told[name] for name in ("action", "by", "note")}

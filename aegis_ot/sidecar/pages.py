@@ -13,6 +13,7 @@ from starlette.concurrency import run_in_threadpool
 from starlette.responses import HTMLResponse, JSONResponse, RedirectResponse, Response
 
 from ..account import run_account
+from ..account.overview import RunOverview
 from ..errors import StoreError
 from ..reports.audit_html import audit_html
 from ..reports.html_page import html_page, shared_file
@@ -23,15 +24,23 @@ from .frames import folder_name
 from .journal import event
 from .security import COOKIE_S, LoginThrottle, client_of, same, set_cookie
 from .service import Sidecar
-from .views import history_view, live_run, run_address, run_view
-from .wire import MAX_COUNT, Action, Decision, Order, WireError, check_run
+from .trends import trends_of
+from .views import Wanted, history_view, live_run, run_address, run_page
+from .wire import MAX_COUNT, Action, Decision, OrderRequest, WireError, check_run
 
 FOLDER = Path(__file__).parent / "templates"
-STATIC = {"page.js": "text/javascript", "page.css": "text/css", "parts.css": "text/css"}
+STATIC = {
+    "page.js": "text/javascript",
+    "page.css": "text/css",
+    "parts.css": "text/css",
+    "icon.svg": "image/svg+xml",
+    "manifest.webmanifest": "application/manifest+json",
+}
 HEADERS = {
     "Content-Security-Policy": (
         "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data:; "
-        "connect-src 'self'; form-action 'self'; frame-ancestors 'none'; base-uri 'none'"
+        "connect-src 'self'; manifest-src 'self'; worker-src 'self'; media-src 'self'; "
+        "form-action 'self'; frame-ancestors 'none'; base-uri 'none'"
     ),
     "X-Content-Type-Options": "nosniff",
     # Not "no-referrer": browsers then send forms with "Origin: null", which the door refuses.
@@ -56,6 +65,8 @@ def page_router(sidecar: Sidecar) -> APIRouter:
     """
     router = APIRouter(include_in_schema=False)
     _reading(router, sidecar)
+    _reports(router, sidecar)
+    _files(router, sidecar)
     _answering(router, sidecar)
     _logging_in(router, sidecar)
     return router
@@ -63,57 +74,86 @@ def page_router(sidecar: Sidecar) -> APIRouter:
 
 def _reading(router: APIRouter, sidecar: Sidecar) -> None:
     @router.get("/")
-    async def live(request: Request, well: Well = None) -> Response:
+    async def live(
+        request: Request,
+        well: Well = None,
+        of: Annotated[str, Query(max_length=200)] = "",
+        during: Well = None,
+    ) -> Response:
         run = await run_in_threadpool(live_run, sidecar)
         if run is None:
             token = sidecar.config.token is not None
             return _show(sidecar, "welcome.html", "live", address=sidecar.address, token=token)
-        return await _run_page(sidecar, request, run, well, "/", "live")
+        return await _run_page(sidecar, request, run, Wanted(well, of, during), "/", "live")
 
     @router.get("/runs")
-    async def history(
+    def history(
         q: Annotated[str, Query(max_length=200)] = "",
         skip: Annotated[int, Query(ge=0, le=MAX_COUNT)] = 0,
     ) -> Response:
-        values = await run_in_threadpool(history_view, sidecar, q, skip)
-        return _show(sidecar, "history.html", "history", **values)
+        return _show(sidecar, "history.html", "history", **history_view(sidecar, q, skip))
+
+    @router.get("/trends")
+    def trends() -> Response:
+        return _show(sidecar, "trends.html", "trends", trends=trends_of(sidecar.store))
 
     @router.get("/runs/{run}")
-    async def run_page(request: Request, run: str, well: Well = None) -> Response:
-        return await _run_page(sidecar, request, check_run(run), well, run_address(run), "run")
+    async def one_run(
+        request: Request, run: str, well: Well = None, during: Well = None
+    ) -> Response:
+        wanted, here = Wanted(well, "", during), run_address(check_run(run))
+        return await _run_page(sidecar, request, run, wanted, here, "run")
 
+
+def _reports(router: APIRouter, sidecar: Sidecar) -> None:
     @router.get("/runs/{run}/report.html")
-    async def report_html(run: str) -> Response:
-        page = await run_in_threadpool(lambda: run_report_html([_report(sidecar, run)]))
+    def report_html(run: str) -> Response:
+        page = run_report_html([_report(sidecar, run)])
         return HTMLResponse(page, headers=_download(run, "html"))
 
     @router.get("/runs/{run}/report.json")
-    async def report_json(run: str) -> Response:
-        account = await run_in_threadpool(lambda: run_account(sidecar.overview(check_run(run))))
+    def report_json(run: str) -> Response:
+        account = run_account(sidecar.overview(check_run(run)))
         return JSONResponse(account, headers=_download(run, "json"))
 
     @router.get("/runs/{run}/audit.html")
-    async def audit_page(run: str) -> Response:
-        page = await run_in_threadpool(lambda: audit_html(*_audited(sidecar, run)))
+    def audit_page(run: str) -> Response:
+        page = audit_html(*_audited(sidecar, run))
         return HTMLResponse(page, headers=_download(f"{run}-audit", "html"))
 
     @router.get("/runs/{run}/audit.json")
-    async def audit_json(run: str) -> Response:
-        _, audit, _ = await run_in_threadpool(_audited, sidecar, run)
+    def audit_json(run: str) -> Response:
+        _, audit, _ = _audited(sidecar, run)
         return JSONResponse(audit, headers=_download(f"{run}-audit", "json"))
 
+
+def _files(router: APIRouter, sidecar: Sidecar) -> None:
     @router.get("/camera")
     def camera(number: Annotated[int, Query(ge=0, le=100)] = 0) -> Response:
         return _show(sidecar, "camera.html", "camera", names=sidecar.aim.names, number=number)
+
+    @router.get("/camera/now.jpg")
+    def now() -> Response:
+        picture = sidecar.aim.picture()
+        headers = {"Cache-Control": "no-store"}
+        if picture is None:
+            return Response(status_code=204, headers=headers)
+        return Response(picture, media_type="image/jpeg", headers=headers)
+
+    @router.get("/sw.js")
+    def worker() -> Response:
+        return _text((FOLDER / "sw.js").read_text("utf-8"), "text/javascript")
 
     @router.get("/static/{name}")
     def static(name: str) -> Response:
         if name not in STATIC:
             raise WireError(404, "no_such_address", "There is nothing at this address.")
         text = shared_file(name) if name == "parts.css" else (FOLDER / name).read_text("utf-8")
-        return Response(
-            text, media_type=STATIC[name], headers={"X-Content-Type-Options": "nosniff"}
-        )
+        return _text(text, STATIC[name])
+
+
+def _text(text: str, kind: str) -> Response:
+    return Response(text, media_type=kind, headers={"X-Content-Type-Options": "nosniff"})
 
 
 def _answering(router: APIRouter, sidecar: Sidecar) -> None:
@@ -127,7 +167,7 @@ def _answering(router: APIRouter, sidecar: Sidecar) -> None:
 
     async def answered(request: Request, run: str, number: int | None) -> Response:
         form = _form(await read_body(request))
-        back = form.get("back") or run_address(check_run(run), number)
+        back = form.get("back") or run_address(check_run(run))
         try:
             by, words = form.get("by", "").strip(), form.get("answer", "").split()
             if not 1 <= len(by) <= 200 or not words:
@@ -136,7 +176,14 @@ def _answering(router: APIRouter, sidecar: Sidecar) -> None:
             await run_in_threadpool(_answer, sidecar, run, number, words, by, note)
         except WireError as error:
             return await _run_page(
-                sidecar, request, run, number, run_address(run), "run", error.message, error.status
+                sidecar,
+                request,
+                run,
+                Wanted(number),
+                run_address(run),
+                "run",
+                error.message,
+                error.status,
             )
         except StoreError as error:  # a person gets a page, never raw JSON
             return _show(sidecar, "welcome.html", "live", 503, problem=str(error), token=False)
@@ -148,17 +195,17 @@ def _answering(router: APIRouter, sidecar: Sidecar) -> None:
 def _answer(
     sidecar: Sidecar, run: str, number: int | None, words: list[str], by: str, note: str
 ) -> None:
-    """``pass`` or ``fail`` says what happened in the well, ``resume`` or ``stop`` what to do;
-    without a well, ``pause`` or ``stop`` is for the robot that moves."""
+    """``pass`` or ``fail`` says what happened in the well, ``resume``, ``retry`` or ``stop`` what
+    to do; without a well, ``pause`` or ``stop`` is for the robot that moves."""
     session = sidecar.session(run)
     for word in words:
         if number is None and word in ("pause", "stop"):
-            session.order(Order(action=word, by=by, note=note))  # type: ignore[arg-type]
+            session.order(OrderRequest(action=word, by=by, note=note))  # type: ignore[arg-type]
         elif number is None:
             raise WireError(422, "answer", f"There is no order {word!r}.")
         elif word in ("pass", "fail"):
             session.decide(number, Decision(outcome=Outcome(word), by=by, note=note))  # type: ignore[arg-type]
-        elif word in ("resume", "stop"):
+        elif word in ("resume", "retry", "stop"):
             session.act(number, Action(action=word, by=by, note=note))  # type: ignore[arg-type]
         else:
             raise WireError(422, "answer", f"There is no answer {word!r}.")
@@ -190,10 +237,15 @@ def _logging_in(router: APIRouter, sidecar: Sidecar) -> None:
 
 
 def _report(sidecar: Sidecar, run: str) -> ReportedRun:
-    return report_run(sidecar.overview(check_run(run)), sidecar.store.frames_of(run))
+    overview = sidecar.overview(check_run(run))
+    return report_run(
+        overview,
+        sidecar.store.frames_of(run),
+        clip=lambda number: sidecar.store.clip(run, number),
+    )
 
 
-def _audited(sidecar: Sidecar, run: str) -> tuple[dict[str, Any], dict[str, Any], Frames]:
+def _audited(sidecar: Sidecar, run: str) -> tuple[RunOverview, dict[str, Any], Frames]:
     """What the page of a run's audit shows.
 
     Raises:
@@ -215,13 +267,13 @@ async def _run_page(
     sidecar: Sidecar,
     request: Request,
     run: str,
-    well: int | None,
+    wanted: Wanted,
     here: str,
     page: str,
     problem: str = "",
     status: int = 200,
 ) -> Response:
-    values = await run_in_threadpool(run_view, sidecar, run, well, here)
+    values = await run_in_threadpool(run_page, sidecar, run, wanted, here)
     name = _name(request)
     return _show(sidecar, "run.html", page, status, problem=problem, name=name, **values)
 
@@ -229,8 +281,8 @@ async def _run_page(
 def _show(
     sidecar: Sidecar, template: str, page: str, status: int = 200, **values: Any
 ) -> HTMLResponse:
-    shown = {"problem": sidecar.notifier.trouble, **values}
-    shown["problem"] = shown["problem"] or sidecar.notifier.trouble
+    shown = {"problem": sidecar.alerts.notifier.trouble, **values}
+    shown["problem"] = shown["problem"] or sidecar.alerts.notifier.trouble
     text = html_page(
         "aegis_ot.sidecar",
         template,

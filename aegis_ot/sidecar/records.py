@@ -3,12 +3,22 @@
 from __future__ import annotations
 
 import json
+import sqlite3
 import time
-from typing import Any
+from typing import Any, TypeVar, cast
 
+from ..account.overview import (
+    ActionEntry,
+    DecisionEntry,
+    HoldEntry,
+    IncidentEntry,
+    RecoveryEntry,
+)
 from ..vocabulary import Outcome, Route, Verdict, from_json, to_json
 from .database import Database, readable
-from .wire import Action, Decision, Hold, Order, Recovery
+from .wire import Action, Body, Decision, HoldReport, OrderRequest, RecoveryReport
+
+T = TypeVar("T")
 
 OF_A_RUN = (
     "audits", "recoveries", "incidents", "actions", "decisions", "holds", "abandoned", "verdicts",
@@ -70,77 +80,52 @@ class Records(Database):
         rows = self._read("SELECT trajectory, reason FROM abandoned WHERE run = ?", run)
         return {row["trajectory"]: row["reason"] for row in rows}
 
-    def outcomes(self, run: str) -> dict[str, int]:
-        """How many deliveries have which outcome, after the operator: ``pass``, ``fail``,
-        ``undecided``, ``recovered`` (failed, and put right) or ``unobserved``. Of a run that is
-        over those without a verdict are undecided.
-        """
+    def judged_wells(self, run: str) -> list[dict[str, Any]]:
+        """Per delivery with a verdict its last keyframe's ``sequence``, ``tip``, ``pipette``,
+        ``reagent``, ``commanded_ul``, ``expected_ul``; ``outcome`` after the operator, ``left_ul``,
+        ``boxes`` (JSON), and ``hold_s``: for how long the robot waited for the verdict."""
         rows = self._read(
-            "SELECT CASE WHEN d.outcome IS NULL AND NOT json_valid(v.verdict) THEN 'undecided' "
-            "WHEN NOT json_valid(v.verdict) THEN d.outcome "
-            "WHEN d.outcome IS NULL AND json_array_length(v.verdict, '$.channels') > 0 "
-            "AND NOT EXISTS (SELECT 1 FROM json_each(v.verdict, '$.channels') c "
-            "WHERE json_extract(c.value, '$.outcome') <> 'unobserved') THEN 'unobserved' "
-            "WHEN coalesce(d.outcome, json_extract(v.verdict, '$.outcome')) = 'fail' "
-            f"AND v.trajectory IN ({_PUT_RIGHT}) THEN 'recovered' "
-            "ELSE coalesce(d.outcome, json_extract(v.verdict, '$.outcome')) END AS outcome, "
-            "count(*) AS n FROM verdicts v LEFT JOIN (SELECT trajectory, outcome, max(id) "
-            "FROM decisions WHERE run = ?1 GROUP BY trajectory) d ON d.trajectory = v.trajectory "
-            "WHERE v.run = ?1 AND NOT EXISTS (SELECT 1 FROM abandoned a WHERE a.run = v.run "
-            "AND a.trajectory = v.trajectory) GROUP BY 1",
+            "SELECT k.sequence, json_extract(k.keyframe, '$.tip') AS tip, "
+            "json_extract(k.keyframe, '$.pipette') AS pipette, "
+            "json_extract(k.keyframe, '$.reagent') AS reagent, "
+            "json_extract(k.keyframe, '$.commanded_ul') AS commanded_ul, "
+            "json_extract(k.keyframe, '$.expected_ul') AS expected_ul, "
+            "coalesce((SELECT outcome FROM decisions d WHERE d.run = v.run "
+            "AND d.trajectory = v.trajectory ORDER BY id DESC LIMIT 1), "
+            "json_extract(v.verdict, '$.outcome')) AS outcome, "
+            "json_extract(v.verdict, '$.left_ul') AS left_ul, "
+            "CASE WHEN json_valid(v.evidence) THEN json_extract(v.evidence, '$.boxes') END "
+            "AS boxes, (SELECT coalesce(sum(seconds), 0) FROM holds h WHERE h.run = v.run "
+            "AND h.trajectory = v.trajectory AND h.resolution = 'verdict') AS hold_s "
+            "FROM verdicts v JOIN keyframes k ON k.run = v.run AND k.sequence = "
+            "(SELECT max(sequence) FROM keyframes m WHERE m.run = v.run "
+            "AND m.trajectory = v.trajectory) WHERE v.run = ? AND json_valid(v.verdict) "
+            "AND json_valid(k.keyframe) ORDER BY v.trajectory",
             run,
         )
-        found = {row["outcome"]: row["n"] for row in rows}
-        ((open_,),) = self._read(
-            "SELECT count(DISTINCT k.trajectory) FROM keyframes k JOIN runs r USING (run) "
-            "WHERE k.run = ?1 AND r.finished IS NOT NULL AND k.trajectory NOT IN "
-            "(SELECT trajectory FROM verdicts WHERE run = ?1 UNION "
-            "SELECT trajectory FROM abandoned WHERE run = ?1)",
-            run,
-        )
-        return found | ({"undecided": found.get("undecided", 0) + open_} if open_ else {})
+        return [dict(row) for row in rows]
 
-    def add_hold(self, run: str, hold: Hold, at: float | None = None) -> None:
+    def add_hold(self, run: str, hold: HoldReport, at: float | None = None) -> None:
         """Keep how long the robot held; the last word on each hold counts."""
-        self._write(
-            "INSERT OR REPLACE INTO holds (run, number, trajectory, seconds, resolution, policy, "
-            "paused_s, answered, at) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)",
-            (
-                run,
-                hold.number,
-                hold.trajectory,
-                hold.seconds,
-                hold.resolution,
-                hold.policy,
-                hold.paused_s,
-                hold.answered,
-                time.time() if at is None else at,
-            ),
-        )
+        self._insert("INSERT OR REPLACE INTO holds", run, hold, at)
 
-    def holds(self, run: str) -> list[dict[str, Any]]:
+    def holds(self, run: str) -> list[HoldEntry]:
         """Holds, oldest first."""
-        names = (
-            "number", "trajectory", "seconds", "resolution", "policy", "paused_s", "answered", "at",
-        )  # fmt: skip
         rows = self._read("SELECT * FROM holds WHERE run = ? ORDER BY number, trajectory", run)
-        return [{name: row[name] for name in names} for row in rows]
+        return [_entry(HoldEntry, row) for row in rows]
 
-    def add_recovery(self, run: str, told: Recovery) -> None:
+    def add_recovery(self, run: str, told: RecoveryReport, at: float) -> None:
         """Keep what the robot does by itself about a failed delivery; the last word counts."""
-        self._write(
-            'INSERT INTO recoveries (run, trajectory, attempt, action, state, "by", text, at) '
-            "VALUES (?, ?, ?, ?, ?, ?, ?, ?) ON CONFLICT (run, trajectory, attempt) DO UPDATE "
-            'SET state = excluded.state, "by" = excluded."by", text = excluded.text',
-            (run, told.trajectory, told.attempt, told.action, told.state, told.by, told.text,
-             time.time()),
-        )  # fmt: skip
+        again = (
+            "ON CONFLICT (run, trajectory, attempt) DO UPDATE "
+            'SET state = excluded.state, "by" = excluded."by", text = excluded.text'
+        )
+        self._insert("INSERT INTO recoveries", run, told, at, again=again)
 
-    def recoveries(self, run: str) -> list[dict[str, Any]]:
+    def recoveries(self, run: str) -> list[RecoveryEntry]:
         """Recoveries in the order in which they began."""
-        names = ("trajectory", "attempt", "action", "state", "by", "text", "at")
         rows = self._read("SELECT * FROM recoveries WHERE run = ? ORDER BY at", run)
-        return [{name: row[name] for name in names} for row in rows]
+        return [_entry(RecoveryEntry, row) for row in rows]
 
     def put_right(self, run: str) -> set[int]:
         """Failed deliveries whose well was put right in the end, failed attempts included."""
@@ -150,50 +135,42 @@ class Records(Database):
         self, run: str, trajectory: int, decision: Decision, at: float | None = None
     ) -> None:
         """Keep the operator's decision; every one is kept, the last one counts."""
-        self._write(
-            'INSERT INTO decisions (run, trajectory, outcome, "by", note, at) '
-            "VALUES (?, ?, ?, ?, ?, ?)",
-            (
-                run,
-                trajectory,
-                decision.outcome.value,
-                decision.by,
-                decision.note,
-                time.time() if at is None else at,
-            ),
-        )
+        self._insert("INSERT INTO decisions", run, decision, at, trajectory)
 
-    def decisions(self, run: str) -> dict[int, list[dict[str, Any]]]:
+    def decisions(self, run: str) -> dict[int, list[DecisionEntry]]:
         """Decisions by trajectory, oldest first."""
-        found: dict[int, list[dict[str, Any]]] = {}
+        found: dict[int, list[DecisionEntry]] = {}
         for row in self._read("SELECT * FROM decisions WHERE run = ? ORDER BY id", run):
-            found.setdefault(row["trajectory"], []).append(
-                {key: row[key] for key in ("outcome", "by", "note", "at")}
-            )
+            found.setdefault(row["trajectory"], []).append(_entry(DecisionEntry, row))
         return found
 
     def add_action(
-        self, run: str, trajectory: int, action: Action | Order, at: float | None = None
+        self, run: str, trajectory: int, action: Action | OrderRequest, at: float | None = None
     ) -> None:
         """Keep what a person told the robot to do."""
-        self._write(
-            'INSERT INTO actions (run, trajectory, action, "by", note, at) '
-            "VALUES (?, ?, ?, ?, ?, ?)",
-            (
-                run,
-                trajectory,
-                action.action,
-                action.by,
-                action.note,
-                time.time() if at is None else at,
-            ),
-        )
+        self._insert("INSERT INTO actions", run, action, at, trajectory)
 
-    def actions(self, run: str) -> list[dict[str, Any]]:
+    def actions(self, run: str) -> list[ActionEntry]:
         """Actions, oldest first."""
-        names = ("trajectory", "action", "by", "note", "at")
         rows = self._read("SELECT * FROM actions WHERE run = ? ORDER BY id", run)
-        return [{name: row[name] for name in names} for row in rows]
+        return [_entry(ActionEntry, row) for row in rows]
+
+    def _insert(
+        self,
+        into: str,
+        run: str,
+        told: Body,
+        at: float | None,
+        trajectory: int | None = None,
+        again: str = "",
+    ) -> None:
+        """A row of what was told: its columns bear the names of the body's members."""
+        row = {"run": run, "at": time.time() if at is None else at} | told.model_dump(mode="json")
+        if trajectory is not None:
+            row["trajectory"] = trajectory
+        names = ", ".join(f'"{name}"' for name in row)
+        values = ", ".join("?" * len(row))
+        self._write(f"{into} ({names}) VALUES ({values}) {again}", tuple(row.values()))
 
     def add_audit(self, run: str, audit: dict[str, Any]) -> None:
         """Keep what the look back at a run found; the last one counts."""
@@ -234,11 +211,15 @@ class Records(Database):
             )
         )
 
-    def incidents(self, run: str) -> list[dict[str, Any]]:
+    def incidents(self, run: str) -> list[IncidentEntry]:
         """Incidents, oldest first; ``ended`` is ``None`` while the trouble lasts."""
-        names = ("kind", "text", "at", "ended")
         rows = self._read("SELECT * FROM incidents WHERE run = ? ORDER BY id", run)
-        return [{name: row[name] for name in names} for row in rows]
+        return [_entry(IncidentEntry, row) for row in rows]
+
+
+def _entry(shape: type[T], row: sqlite3.Row) -> T:
+    """The columns that the shape names."""
+    return cast("T", {name: row[name] for name in shape.__annotations__})
 
 
 def _verdict(run: str, trajectory: int, text: Any) -> Verdict:

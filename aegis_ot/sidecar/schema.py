@@ -85,6 +85,23 @@ MIGRATIONS: tuple[str, ...] = (
     INSERT INTO at_work VALUES (0.0);
     ALTER TABLE runs ADD COLUMN heard REAL NOT NULL DEFAULT 0.0;
     """,
+    """
+    ALTER TABLE holds ADD COLUMN next TEXT NOT NULL DEFAULT '';
+    """,
+    # What is added to a chained table from here on may be empty, and is in older runs: a cell that
+    # a migration fills would look like a change (see chain.digest_of).
+    """
+    CREATE TABLE chain (
+        run TEXT NOT NULL, number INTEGER NOT NULL, kind TEXT NOT NULL, key TEXT NOT NULL,
+        digest TEXT, at REAL NOT NULL, hash TEXT NOT NULL, PRIMARY KEY (run, number)
+    );
+    CREATE INDEX chain_of ON chain (run, kind, key, number);
+    CREATE TABLE seals (run TEXT PRIMARY KEY, key TEXT NOT NULL, signature TEXT NOT NULL);
+    """,
+    """
+    ALTER TABLE runs ADD COLUMN trajectories INTEGER;
+    ALTER TABLE runs ADD COLUMN keyframes INTEGER;
+    """,
 )
 """One script per version, ``user_version`` counting those done. Only ever append."""
 

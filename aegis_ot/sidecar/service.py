@@ -6,32 +6,33 @@ import contextlib
 import itertools
 import threading
 import time
-from collections.abc import Sequence
 from typing import Any
 
 from .._version import __version__
-from ..errors import StoreError
+from ..account import RECOVERY
+from ..account.overview import RunOverview
+from ..errors import ConfigurationError, StoreError
 from ..vision.camera import Camera
 from ..vision.types import Detector
 from ..vision.view import ViewWatch
 from .aiming import Aim
+from .alerts import Alerts, Notice
 from .analysis import Analyser
 from .auditing import Auditor, Audits
 from .bell import Bell
 from .cameras import BoundCameras, FreeRunning, Health
+from .clips import Clips
 from .config import SidecarConfig
 from .grabbing import Grabber
 from .housekeeping import Housekeeper, Tidied
 from .identity import check_start, kept_apart, name_taken
-from .incidents import Incidents
 from .journal import event
-from .messages import compose
-from .notices import Notice
-from .notifications import Message, Notifier
-from .overview import run_overview
-from .sessions import LAYER1, OPERATOR, UNSERVED, Session
+from .lineage import lineage_document
+from .overview import run_overview, runs_overview
+from .sessions import LAYER1, OPERATOR, UNSERVED, RunSession
 from .store import Store
-from .wire import Finish, Hold, Recovery, RunStart, WireError
+from .webhook import WebHook
+from .wire import Finish, HoldReport, RecoveryReport, RunStart, WireError
 
 SESSIONS_KEPT = 16
 """Runs beyond this number leave memory if they are finished or silent; the store keeps them."""
@@ -73,22 +74,41 @@ class Sidecar:
         self.bell = Bell()
         self.address = ""
         self._analyser = analyser
-        self.notifier = Notifier(config.notifications.urls, self._compose, self._undelivered)
         self.store = Store(config.data, alone=True)
-        self._incidents = Incidents(self.store)
+        try:
+            self.alerts = Alerts(
+                config.notifications.urls,
+                self.store,
+                lambda: self.address,
+                self.bell.ring,
+                lambda told: self._film(told.run, told.trajectory, anew=told.kind != "recovered"),
+            )
+        except ConfigurationError:
+            self.store.close()
+            raise
+        with contextlib.suppress(StoreError):  # a full disk keeps nobody from their runs
+            for run in self.store.unfinished():
+                self.store.forget_torn(run)
+        self._clips = Clips(camera, self.store, self.bell.ring)
         # A test pattern shows no pipette, and is not meant to.
         watched = config.camera.watch_view and camera.kind != "pattern"
         self._detector = detector if watched else None
-        self._sessions: dict[str, Session] = {}
+        self._sessions: dict[str, RunSession] = {}
         self._met: set[str] = set()
         self._opening = threading.Lock()
-        self._grabber = Grabber(camera, config.camera.timeout_s, self)
+        self._grabber = Grabber(camera, config.camera.timeout_s, self.alerts)
         self.aim = Aim(config, camera, lambda: self._grabber.last)
         self._closed = False
         self._about = about_sidecar(config, camera)
         self._audits = None
         if auditor is not None and config.audit:
             self._audits = Audits(auditor, self.store, self._settled, self.bell.ring)
+        self._hook = WebHook(
+            config.webhook,
+            lambda run: lineage_document(self.store, run),
+            self._settled,
+            lambda run, why: self.alerts.undelivered(run, "webhook", why),
+        )
         self._housekeeper = Housekeeper(
             self.store, config.retention, self._tidied, self._heard_within
         )
@@ -116,8 +136,8 @@ class Sidecar:
             first = first or known
             run = f"{start.run[:120]}-{number}"
         if first is not None:
-            self._incidents.begin(run, "identifier", kept_apart(first, run))
-            self._incidents.end(run, "identifier")
+            self.alerts.incidents.begin(run, "identifier", kept_apart(first, run))
+            self.alerts.incidents.end(run, "identifier")
         self.store.reopen(run)
         if start.mode == "watch" and isinstance(self.camera, (FreeRunning, BoundCameras)):
             self.camera.remember()
@@ -125,7 +145,7 @@ class Sidecar:
         self.bell.ring()
         return run
 
-    def session(self, run: str, nonce: str | None = None) -> Session:
+    def session(self, run: str, nonce: str | None = None) -> RunSession:
         """The run in memory, from the store if need be.
 
         Args:
@@ -143,13 +163,13 @@ class Sidecar:
                 self._meet(run)
                 if isinstance(self.camera, BoundCameras):
                     self.camera.meet(run, str((self.store.run(run) or {}).get("robot_name") or ""))
-                session = self._sessions[run] = Session(
+                session = self._sessions[run] = RunSession(
                     run,
                     self.store,
                     self._analyser,
                     self.bell,
                     self._grabber.grab,
-                    self,
+                    self.alerts,
                     self.config.operator.timeout_s,
                     None if self._detector is None else ViewWatch(self._detector),
                 )
@@ -165,80 +185,91 @@ class Sidecar:
                 404, "run_unknown", f"Run {run!r} is not known here.", "Register it with PUT."
             )
 
-    def hold(self, run: str, hold: Hold) -> None:
+    def hold(self, run: str, hold: HoldReport) -> None:
         """Keep how a hold ended. People hear of it unless a verdict, or they, ended it."""
         watched = (self.store.run(run) or {}).get("mode") == "watch"
         self.session(run).held(hold, watched)
         event("hold", run=run, **hold.model_dump())
+        if hold.resolution in ("stopped", OPERATOR) and hold.paused_s is None:
+            self._film(run, hold.trajectory)
         expected = hold.resolution in ("verdict", "stopped", OPERATOR)
         if not expected and hold.paused_s is None:
             policy = f"; then: {hold.policy}" if hold.policy else ""
             what, seen = "a hold ended without a verdict", f"After {hold.seconds:.1f} s: "
             if hold.resolution in UNSERVED:
                 what, seen = "the robot is paused", "It was not served: "
+            elif hold.resolution == RECOVERY:
+                what, seen = "the robot waits", f"A step failed ({hold.next}): "
             elif hold.resolution == LAYER1:
                 what, seen = "the robot is paused", "What it does next breaks a rule: "
             seen += f"{hold.resolution}{policy}."
-            self.tell(Notice(run, "hold", what, seen, hold.trajectory))
+            self.alerts.tell(Notice(run, "hold", what, seen, hold.trajectory))
 
-    def recovery(self, run: str, told: Recovery) -> None:
+    def recovery(self, run: str, told: RecoveryReport) -> None:
         """Keep what the robot does by itself about a failed delivery."""
-        self.store.add_recovery(run, told)
+        self.session(run).record.recovery(told)
         event("recovery", run=run, **told.model_dump())
         if told.state == "recovered":  # people were told that it failed
-            self.tell(
+            self.alerts.tell(
                 Notice(run, "recovered", "put right by the robot", told.text, told.trajectory)
             )
-        self.bell.ring()
 
-    def tell(self, notice: Notice) -> None:
-        """Tell people of an incident, once; trouble is kept with its run until it is over."""
-        if notice.trajectory is None and not self._incidents.begin(
-            notice.run, notice.kind, notice.seen
-        ):
+    def _film(self, run: str, trajectory: int | None = None, anew: bool = False) -> None:
+        """Keep the seconds around something that happened: with its delivery, ``anew`` if there is
+        a clip already, or with the one that was under way, whose clip stays."""
+        session = self._sessions.get(run)
+        number = session.under_way if trajectory is None and session else trajectory
+        if number is None:
             return
-        self.notifier.send(notice)
-        self.bell.ring()
-
-    def over(self, run: str, kind: str) -> None:
-        """Trouble of this kind is over."""
-        if self._incidents.end(run, kind):
-            self.bell.ring()
-
-    def note(self, run: str, kind: str, seen: str, lasted_s: float = 0.0) -> None:
-        """Keep trouble that is over; nobody is told of it."""
-        self._incidents.note(run, kind, seen, lasted_s)
-        self.bell.ring()
+        keeps = trajectory is None or not anew
+        with contextlib.suppress(StoreError):  # a clip is no reason to trouble anybody
+            if not keeps or number not in self.store.clips(run):
+                self._clips.take(run, number)
 
     def differs(self, run: str, text: str) -> None:
         """The run does otherwise than its rehearsal: people are told, once."""
         self.require(run)
-        self.tell(Notice(run, "layer1", "the run is not as rehearsed", text))
+        self.alerts.tell(Notice(run, "layer1", "the run is not as rehearsed", text))
 
     def finish(self, run: str, finish: Finish) -> None:
         """Keep how the run ended."""
         session = self.session(run)  # after a restart: judges what had not been judged
-        session.ended(finish)
+        session.record.end(finish)
+        if finish.outcome != "succeeded":
+            self._film(run)
         with contextlib.suppress(StoreError):
-            self._incidents.end(run, "layer1")
+            self.alerts.incidents.end(run, "layer1")
             session.catch_up()
         event("finish", run=run, outcome=finish.outcome, detail=finish.detail)
         self._look_back(run)
         self.bell.ring()
 
-    def runs(self, search: str = "", most: int = -1) -> list[dict[str, Any]]:
-        """Runs, newest first, as plain JSON (see :meth:`.Store.runs`)."""
-        return self.store.runs(search, most)
+    def close_run(self, run: str, finish: Finish) -> None:
+        """Somebody who saw the robot says how the run ended, which the run itself cannot any more:
+        what it was in the middle of is given up."""
+        self.require(run)
+        told = self.overview(run)
+        if told["finished"]:
+            return
+        for one in told["trajectories"]:
+            over = any(k["kind"] == "post_dispense" for k in one["keyframes"])
+            if not over and one["verdict"] is None and one["abandoned"] is None:
+                self.session(run).abandon(one["trajectory"], finish.detail or finish.outcome)
+        self.finish(run, finish)
 
-    def overview(self, run: str) -> dict[str, Any]:
+    def runs(self, search: str = "", most: int = -1) -> list[dict[str, Any]]:
+        """Runs, newest first, as plain JSON (see :func:`.runs_overview`)."""
+        return runs_overview(self.store, search, most)
+
+    def overview(self, run: str) -> RunOverview:
         """All that is known of a run, as plain JSON (docs/reference/wire.md)."""
         version = self.bell.rings
         self.require(run)
         session = self._sessions.get(run)
-        waiting = None if session is None else session.unrecorded
+        waiting = None if session is None else session.record
         at_work = session is not None and not session.idle
         overview = run_overview(self.store, run, at_work, waiting)
-        overview["incidents"] += self._incidents.waiting(run)
+        overview["incidents"] += self.alerts.incidents.waiting(run)
         overview["order"] = None if session is None else session.ordered()
         for trajectory in overview["trajectories"]:
             number = trajectory["trajectory"]
@@ -246,7 +277,8 @@ class Sidecar:
             trajectory["awaiting"] = "operator" if waits else None
             trajectory["awaiting_s"] = session.operator_has(number) if session and waits else None
             trajectory["held_for_s"] = session.held_for(number) if session else None
-        return overview | {"version": version}
+        overview["version"] = version
+        return overview
 
     def camera_health(self) -> Health:
         """How the camera is, by its own word and by the last capture."""
@@ -259,11 +291,13 @@ class Sidecar:
         self._closed = True
         if self._audits is not None:
             self._audits.close()
+        self._hook.close()
         for session in self._sessions.values():
             session.close()
         self._housekeeper.close()
+        self._clips.close()
         self.camera.close()
-        self.notifier.close()
+        self.alerts.notifier.close()
         self.store.close()
 
     def _meet(self, run: str) -> None:
@@ -276,7 +310,9 @@ class Sidecar:
                 self.store.end_incidents(run, kind)
             row = self.store.run(run)
             if row is not None and not row["finished"] and self.store.next_sequence(run):
-                self._incidents.note(run, "restart", "The sidecar was started anew in this run.")
+                self.alerts.incidents.note(
+                    run, "restart", "The sidecar was started anew in this run."
+                )
 
     def _heard_within(self, seconds: float) -> list[str]:
         since = time.monotonic() - seconds
@@ -291,31 +327,24 @@ class Sidecar:
         for run in done.closed:
             self._look_back(run)
             seen = "The robot has said nothing for long; its run was closed."
-            self.notifier.send(Notice(run, "silent", "a run ended without a word", seen))
+            self.alerts.notifier.send(Notice(run, "silent", "a run ended without a word", seen))
         self.bell.ring()
 
     def _look_back(self, run: str) -> None:
         if self._audits is not None:
             self._audits.add(run)
+        self._hook.add(run)
 
     def _settled(self, run: str) -> bool:
         session = self._sessions.get(run)
         return session is None or session.idle
-
-    def _compose(self, notices: Sequence[Notice]) -> Message:
-        return compose(self.store, notices, self.address)
-
-    def _undelivered(self, notice: Notice, why: str) -> None:
-        with contextlib.suppress(StoreError):
-            self._incidents.note(notice.run, "notification", why)
-        self.bell.ring()
 
     def _evict(self) -> None:
         if len(self._sessions) < SESSIONS_KEPT:
             return
         now = time.monotonic()
         for run, session in list(self._sessions.items()):
-            if not session.idle or session.unrecorded or now - session.asked < EMPTY_S:
+            if not session.idle or session.record or now - session.asked < EMPTY_S:
                 continue
             if session.empty or now - session.asked > SILENT_S or self._has_ended(run):
                 session.close()

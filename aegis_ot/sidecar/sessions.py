@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import functools
 import logging
 import math
 import threading
@@ -11,20 +10,22 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
+from ..account import RECOVERY
+from ..account.overview import DecisionEntry
 from ..errors import StoreError
 from ..vision.camera import Frame
 from ..vision.view import ViewWatch
 from ..vocabulary import Keyframe, Outcome, Verdict
+from .alerts import Alerts, RunTrouble
 from .analysis import Analyser, tell_late, undecided
 from .bell import Bell
 from .decisions import effective
 from .journal import event
 from .orders import Orders
 from .overview import run_overview
-from .run_trouble import RunTrouble, Troubles
+from .run_record import RunRecord
 from .store import SILENT, Captured, Store
-from .unrecorded import Record, Unrecorded
-from .wire import Action, Decision, Finish, Hold, Order, WireError
+from .wire import Action, Decision, HoldReport, OrderRequest, WireError
 from .worker import AnalysisWorker
 
 log = logging.getLogger(__name__)
@@ -39,18 +40,20 @@ LAYER1 = "layer1"
 """Resolutions of a pause that began because the robot was not served."""
 OPERATOR = "operator"
 """Resolution of a hold that a person ordered."""
+LATELY_S = 60.0
+"""What the camera shows has nothing to do with a keyframe that is older, s."""
 ASKS_S = 3.0
 """A robot that holds asks every 0.15 s; one that has not asked for so long does something else."""
 
 
-class Session:
+class RunSession:
     """One run in memory. Made from the store, so a restart loses nothing.
 
     Args:
         run: Identifier of the run; known to the store.
         store, analyser, bell: Shared by all sessions.
         grab: Takes a frame.
-        troubles: Hears of bad verdicts and of trouble.
+        alerts: Hears of bad verdicts and of trouble.
         operator_timeout: How long an undecided verdict is held back for the operator, s.
         view: Looks at each frame before it counts; ``None``: every frame counts.
 
@@ -66,7 +69,7 @@ class Session:
         analyser: Analyser,
         bell: Bell,
         grab: Grab,
-        troubles: Troubles,
+        alerts: Alerts,
         operator_timeout: float = 0.0,
         view: ViewWatch | None = None,
     ) -> None:
@@ -75,8 +78,10 @@ class Session:
         self._store = store
         self._bell = bell
         self._grab = grab
-        self._trouble = RunTrouble(run, troubles)
-        self.unrecorded = Unrecorded(lambda why: self._trouble.begins("store", str(why)), bell.ring)
+        self._trouble = RunTrouble(run, alerts)
+        self.record = RunRecord(
+            run, store, lambda why: self._trouble.begins("store", str(why)), bell.ring
+        )
         self._operator_timeout = operator_timeout
         self._view = view
         self._capturing = threading.Lock()
@@ -87,6 +92,7 @@ class Session:
         store.forget_torn(run)
         self._next = store.next_sequence(run)
         self._at = 0
+        self._kept_at = -math.inf
         self._known = {hold["trajectory"] for hold in store.holds(run)}
         judged = store.verdicts(run)
         self._verdicts: dict[int, Verdict] = {v.trajectory: v for v, _, _ in judged}
@@ -149,7 +155,7 @@ class Session:
                 self._trouble.begins("store", str(error))
                 raise
             self._next += 1
-            self._at = keyframe.trajectory
+            self._at, self._kept_at = keyframe.trajectory, time.monotonic()
             self._known.add(keyframe.trajectory)
             self._resumed()
             self._worker.submit(keyframe, frame)
@@ -179,6 +185,13 @@ class Session:
             self._bell.ring()
         return found
 
+    @property
+    def under_way(self) -> int | None:
+        """The delivery of the last keyframe, if that was kept lately: what the camera shows now
+        has to do with it."""
+        lately = time.monotonic() - self._kept_at < LATELY_S
+        return self._at if lately else None
+
     def held_for(self, trajectory: int) -> float | None:
         """For how long the robot has held for this verdict, s; ``None`` if it does not."""
         now = time.monotonic()
@@ -197,11 +210,10 @@ class Session:
 
     def abandon(self, trajectory: int, reason: str) -> None:
         """The trajectory will have no further keyframes and needs no verdict."""
-        self._store.abandon(self.run, trajectory, reason)
         self._worker.drop(trajectory)
-        self._bell.ring()
+        self.record.abandon(trajectory, reason)
 
-    def held(self, hold: Hold, watched: bool) -> None:
+    def held(self, hold: HoldReport, watched: bool) -> None:
         """The robot says how a hold ended: by a pause, if the operator is to look at the well.
 
         Args:
@@ -212,31 +224,11 @@ class Session:
             self._known.add(hold.trajectory)
             verdict = self._verdicts.get(hold.trajectory)
             unsure = verdict is not None and verdict.outcome is Outcome.UNDECIDED
-            if hold.resolution in (OPERATOR, LAYER1, *UNSERVED):
+            if hold.resolution in (OPERATOR, LAYER1, RECOVERY, *UNSERVED):
                 self._orders.taken()
             elif hold.policy == "pause" and unsure and not watched:
                 self._paused.add(hold.trajectory)
-        at = time.time()
-        row = hold.model_dump() | {"at": at}
-        self._keep("hold", row, lambda: self._store.add_hold(self.run, hold, at))
-
-    def ended(self, finish: Finish) -> None:
-        """The robot says how its run ended."""
-        at = time.time()
-
-        def write() -> None:
-            self._store.finish(self.run, finish, at)
-            if finish.layer1 is not None:
-                self._store.add_layer1(self.run, finish.layer1.model_dump())
-
-        row = {"at": at, "outcome": finish.outcome, "detail": finish.detail}
-        self._keep("end", row, write)
-
-    def _keep(self, kind: str, row: dict[str, Any], write: Callable[[], object]) -> None:
-        """It counts already. People hear of it at once, the store when it can take it."""
-        self._bell.ring()
-        self.unrecorded.keep(Record(kind, row, write))
-        self._bell.ring()
+        self.record.hold(hold)
 
     def _resumed(self) -> None:
         """The robot moves: whoever was asked by a pause has looked, and let the run go on."""
@@ -257,17 +249,18 @@ class Session:
             verdict = self._verdicts.get(trajectory) or self._give_up(trajectory)
             if verdict is None:
                 raise WireError(409, "no_verdict", f"Trajectory {trajectory} has no verdict yet.")
-            at = time.time()
-            row = _row_of(decision, at)
+            row: DecisionEntry = {
+                "outcome": decision.outcome.value,
+                "by": decision.by,
+                "note": decision.note,
+                "at": time.time(),
+            }
             decided_so_far = self._decisions.setdefault(trajectory, [])
             decided_so_far.append(row)
             decided = effective(verdict, decided_so_far)
         if decision.outcome is Outcome.PASS and verdict.outcome is Outcome.UNDECIDED:
             self._worker.confirm(trajectory)
-        write = functools.partial(self._store.add_decision, self.run, trajectory, decision, at)
-        self._keep("decision", row | {"trajectory": trajectory}, write)
-        event("decision", run=self.run, trajectory=trajectory, outcome=decision.outcome.value,
-              by=decision.by)  # fmt: skip
+        self.record.decision(trajectory, decision, row)
         return decided
 
     def act(self, trajectory: int, action: Action) -> None:
@@ -283,11 +276,10 @@ class Session:
         with self._state:
             self._orders.require_going_on(action)
             self._orders.answer(trajectory, action, at)
-        write = functools.partial(self._store.add_action, self.run, trajectory, action, at)
-        self._keep("action", _row_of(action, at) | {"trajectory": trajectory}, write)
+        self.record.action(trajectory, action, at)
         event("action", run=self.run, trajectory=trajectory, action=action.action, by=action.by)
 
-    def order(self, order: Order) -> None:
+    def order(self, order: OrderRequest) -> None:
         """A person tells the moving robot to pause, or to end the run, at its next exchange.
 
         Raises:
@@ -298,8 +290,7 @@ class Session:
         with self._state:
             self._orders.require_going_on(order)
             self._orders.order(order, at)
-        write = functools.partial(self._store.add_action, self.run, trajectory, order, at)
-        self._keep("action", _row_of(order, at) | {"trajectory": trajectory}, write)
+        self.record.action(trajectory, order, at)
         event("action", run=self.run, action=order.action, by=order.by)
 
     def action(self, trajectory: int, within_s: float | None = None) -> dict[str, Any] | None:
@@ -316,7 +307,7 @@ class Session:
     def close(self) -> None:
         """End the worker. Idempotent."""
         self._worker.close()
-        self.unrecorded.close()
+        self.record.close()
 
     def _require_known(self, trajectory: int) -> None:
         if trajectory not in self._known:
@@ -329,7 +320,7 @@ class Session:
 
     def _require_running(self) -> None:
         known = (self._store.run(self.run) or {}).get("finished")
-        ended = next(iter(self.unrecorded.rows("end")), known)
+        ended = next(iter(self.record.rows("end")), known)
         if ended and ended["outcome"] != SILENT:  # such a robot may stand in a pause still
             raise WireError(
                 409,
@@ -398,9 +389,7 @@ class Session:
         with self._state:
             if verdict.trajectory in self._late:
                 verdict = undecided(self.run, verdict.trajectory, tell_late())
-        row = {"verdict": verdict, "evidence": evidence, "at": time.time()}
-        write = functools.partial(self._store.add_verdict, verdict, evidence)
-        self.unrecorded.keep(Record("verdict", row, write))
+        self.record.verdict(verdict, evidence)
         with self._state:
             self._verdicts[verdict.trajectory] = verdict
             if verdict.outcome is Outcome.UNDECIDED and self._operator_timeout > 0:
@@ -419,10 +408,5 @@ class Session:
 
     def catch_up(self) -> None:
         """The store takes what is written again: keep what it could not."""
-        self.unrecorded.write()
+        self.record.write()
         self._trouble.is_over("store")
-
-
-def _row_of(told: Decision | Action | Order, at: float) -> dict[str, Any]:
-    """What a person said, as the store gives it back."""
-    return told.model_dump(mode="json") | {"at": at}

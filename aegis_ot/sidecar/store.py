@@ -8,18 +8,21 @@ keeps the keyframes of its run, sends them again.
 
 from __future__ import annotations
 
+import contextlib
 import dataclasses
 import json
 import sqlite3
 import time
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
+from ..account.overview import KeyframeEntry, RunEntry
 from ..errors import StoreError
 from ..vision.camera import SIMULATED_KINDS
 from ..vocabulary import Keyframe, from_json, to_json
+from .chain import CLIPS, FRAMES, sha256
 from .database import DATABASE, readable
 from .frames import FrameFiles, folder_name
 from .records import OF_A_RUN, Records
@@ -131,7 +134,8 @@ class Store(Records):
 
     def finish(self, run: str, finish: Finish, at: float | None = None) -> None:
         """Keep how a run ended; the last word counts."""
-        self._end(run, finish.outcome, finish.detail, at)
+        counts = finish.trajectories, finish.keyframes
+        self._end(run, finish.outcome, finish.detail, at, counts)
 
     def close_silent(self, run: str, detail: str) -> None:
         """Close a run that ended without a word."""
@@ -145,14 +149,22 @@ class Store(Records):
             (run, SILENT),
         )
 
-    def _end(self, run: str, outcome: str, detail: str, at: float | None = None) -> None:
+    def _end(
+        self,
+        run: str,
+        outcome: str,
+        detail: str,
+        at: float | None = None,
+        counts: tuple[int | None, int | None] = (None, None),
+    ) -> None:
         self._write(
-            "UPDATE runs SET finished = ?, outcome = ?, detail = ?, heard = ? WHERE run = ?",
-            (time.time() if at is None else at, outcome, detail, self.at_work(), run),
+            "UPDATE runs SET finished = ?, outcome = ?, detail = ?, heard = ?, "
+            "trajectories = ?, keyframes = ? WHERE run = ?",
+            (time.time() if at is None else at, outcome, detail, self.at_work(), *counts, run),
         )
 
     def runs(self, search: str = "", most: int = -1, skip: int = 0) -> list[dict[str, Any]]:
-        """Runs, newest first, with the number of keyframes and of verdicts by outcome.
+        """Runs, newest first, with the number of keyframes.
 
         Args:
             search: Words that the run's name, protocol, robot or outcome must all hold.
@@ -169,19 +181,12 @@ class Store(Records):
             most,
             skip,
         )
-        return [
-            _run_row(row)
-            | {
-                "keyframes": row["keyframes"],
-                "wells": self.outcomes(row["run"]),
-            }
-            for row in rows
-        ]
+        return [_run_row(row) | {"keyframes": row["keyframes"]} for row in rows]
 
-    def run(self, run: str) -> dict[str, Any] | None:
+    def run(self, run: str) -> RunEntry | None:
         """The run's own row, or ``None``."""
         rows = self._read(f"{_ROW} FROM runs r WHERE r.run = ?", run)
-        return _run_row(rows[0]) if rows else None
+        return cast("RunEntry", _run_row(rows[0])) if rows else None
 
     def unfinished(self) -> list[str]:
         """Runs that have not ended."""
@@ -216,12 +221,17 @@ class Store(Records):
         with self._plain_errors("read from"):
             return self._frames.size(run)
 
-    def forget(self, run: str) -> None:
-        """Remove a run with its frames and all that is known of it. It cannot be brought back."""
+    def forget(self, run: str, why: str = "retention") -> None:
+        """Remove a run with its frames and all that is known of it. It cannot be brought back;
+        the store's own chain keeps that it was removed, and why."""
+        with self._transaction("write to"):
+            self._chain.remove(run, why)
         with self._plain_errors("remove a run from"):
             self._frames.remove(run)
-        for table in (*OF_A_RUN, "runs"):
-            self._write(f"DELETE FROM {table} WHERE run = ?", (run,))
+        with self._transaction("write to"):
+            for table in (*OF_A_RUN, "chain", "seals", "runs"):
+                self._db.execute(f"DELETE FROM {table} WHERE run = ?", (run,))
+            self._chain.forget_touched()
 
     # Keyframes
 
@@ -240,6 +250,8 @@ class Store(Records):
                 captured.exposed_after_s,
                 captured.captured,
             ),
+            keyframe.run,
+            [(FRAMES, str(keyframe.sequence), sha256(jpeg))],
         )
 
     def mark_late(self, run: str, sequence: int) -> None:
@@ -265,15 +277,18 @@ class Store(Records):
         rows = self._read("SELECT * FROM keyframes WHERE run = ? ORDER BY sequence", run)
         return [captured for row in rows if (captured := _captured(row)) is not None]
 
-    def told_keyframes(self, run: str) -> list[dict[str, Any]]:
+    def told_keyframes(self, run: str) -> list[KeyframeEntry]:
         """All keyframes of a run in order as plain JSON, with ``captured`` and
         ``exposed_after_s``; ten times as fast as :meth:`keyframes`.
         """
         rows = self._read("SELECT * FROM keyframes WHERE run = ? ORDER BY sequence", run)
         return [
-            LEFT_OUT
-            | told
-            | {"captured": row["captured"], "exposed_after_s": row["exposed_after_s"]}
+            cast(
+                "KeyframeEntry",
+                LEFT_OUT
+                | told
+                | {"captured": row["captured"], "exposed_after_s": row["exposed_after_s"]},
+            )
             for row in rows
             if (told := readable(row["keyframe"], dict)) is not None
         ]
@@ -302,9 +317,68 @@ class Store(Records):
 
         return frame
 
+    def keep_clip(self, run: str, trajectory: int, video: bytes) -> None:
+        """Keep the seconds around a delivery, unless the run was removed meanwhile."""
+        path = self._frames.clip_path(run, trajectory)
+        with self._plain_errors("keep a clip in"):
+            if not path.parent.is_dir():
+                return
+            path.write_bytes(video)
+        try:
+            self._write("", (), run, [(CLIPS, str(trajectory), sha256(video))])
+        except StoreError:
+            path.unlink(missing_ok=True)
+            raise
+
+    def clips(self, run: str) -> set[int]:
+        """Deliveries of which there is a clip."""
+        with self._plain_errors("read from"):
+            return self._frames.clips(run)
+
+    def clip(self, run: str, trajectory: int) -> bytes | None:
+        """The clip of a delivery, WebM; ``None`` where there is none."""
+        path = self._frames.clip_path(run, trajectory)
+        with self._plain_errors("read a clip from"):
+            return path.read_bytes() if path.is_file() else None
+
     def frame_path(self, run: str, sequence: int) -> Path:
         """Where the JPEG of a keyframe is."""
         return self._frames.path(run, sequence)
+
+    def files_of(self, run: str) -> dict[tuple[str, str], Path]:
+        """The frames and clips that lie in a run's folder, by kind and number."""
+        with self._plain_errors("read from"):
+            return self._frames.files(run)
+
+    def file_of(self, run: str, kind: str, number: int) -> Path:
+        """Where one of them is, or will be."""
+        return self._frames.file(run, kind, number)
+
+    def file_digest(self, path: Path) -> str | None:
+        """SHA-256 of one of them; ``None`` if it is gone by now."""
+        with self._plain_errors("read a file from"), contextlib.suppress(FileNotFoundError):
+            return sha256(path.read_bytes())
+        return None
+
+    def chained(self, run: str) -> tuple[dict[int, str], dict[str, Any] | None]:
+        """SHA-256 of frames by number, and the newest hash of the run's chain with its signature;
+        nothing of an older run."""
+        frames = self._read(
+            "SELECT key, digest FROM chain WHERE run = ? AND kind = ? ORDER BY number", run, FRAMES
+        )
+        seal = self._read(
+            "SELECT c.number, c.hash, s.key, s.signature FROM chain c JOIN seals s USING (run) "
+            "WHERE run = ? ORDER BY number DESC LIMIT 1",
+            run,
+        )
+        hashes = {int(row["key"]): row["digest"] for row in frames if row["digest"]}
+        return hashes, dict(seal[0]) if seal else None
+
+    @contextlib.contextmanager
+    def snapshot(self) -> Iterator[sqlite3.Connection]:
+        """Read at one moment, whatever is written meanwhile."""
+        with self._transaction("read from", "BEGIN"):
+            yield self._db
 
     def settle(self, run: str, sequence: int) -> None:
         """Force a frame onto the disk; takes what the disk takes."""
@@ -334,7 +408,10 @@ _SEARCHED = (
     "coalesce(json_extract(r.start, '$.robot_name'), '') ELSE '' END || ' ' || "
     "coalesce(r.outcome, 'running'))"
 )
-_ROW = "SELECT r.run, r.start, r.registered, r.finished, r.outcome, r.detail, r.sidecar"
+_ROW = (
+    "SELECT r.run, r.start, r.registered, r.finished, r.outcome, r.detail, r.sidecar, "
+    "r.trajectories AS begun, r.keyframes AS meant"
+)
 
 
 def _run_row(row: sqlite3.Row) -> dict[str, Any]:
@@ -343,8 +420,12 @@ def _run_row(row: sqlite3.Row) -> dict[str, Any]:
         start = RunStart(
             run=row["run"], protocol="(the record of this run is damaged)"
         ).model_dump()
+    start = RunStart(run=row["run"]).model_dump() | start  # an older guard told less
     finished = row["finished"]
-    ended = {"at": finished, "outcome": row["outcome"], "detail": row["detail"]}
+    ended = {
+        "at": finished, "outcome": row["outcome"], "detail": row["detail"],
+        "trajectories": row["begun"], "keyframes": row["meant"],
+    }  # fmt: skip
     sidecar: dict[str, Any] | None = readable(row["sidecar"], dict)
     # Older stores say only what the robot was; the frames are the camera's.
     drawn = (sidecar or {}).get("camera") in SIMULATED_KINDS

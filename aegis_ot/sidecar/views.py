@@ -3,29 +3,35 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
-from urllib.parse import quote
+from urllib.parse import quote, urlencode
 
-from ..account import (
-    Box,
-    Picture,
-    SeenWell,
-    doing,
-    plate_maps,
-    run_account,
-    seen_well,
-    situations,
-    state_of,
-)
+from ..account import Box, Picture, RunView, SeenWell, run_account, run_view, seen_well, state_of
+from ..account.overview import DeliveryEntry, RunOverview
 from ..account.pictures import cut_pictures
-from ..account.summary import is_flagged
-from ..errors import StoreError
+from ..account.plates import short_name
+from .overview import runs_overview
 from .service import Sidecar
 
 RUNS_SHOWN = 50
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """Which well a person wants to see.
+
+    Attributes:
+        well: Number of its delivery; ``None``: the one that is asked about, failed or came last.
+        run: Of which run; ``""``: of the one that is shown.
+        during: The delivery that was asked about when it was chosen: what is asked about later is
+            shown first.
+    """
+
+    well: int | None = None
+    run: str = ""
+    during: int | None = None
 
 
 @dataclass(frozen=True)
@@ -35,25 +41,30 @@ class ChosenWell:
     Attributes:
         trajectory: Its number in the run.
         state: See :func:`~aegis_ot.account.state_of`.
+        name: In short, ``"C2"``.
         seen: Frames with what was measured.
         entry: The delivery in the run's overview.
         line: Source line of the protocol.
+        before, after: The flagged deliveries around it; ``None`` where there is none.
     """
 
     trajectory: int
     state: str
+    name: str
     seen: SeenWell
-    entry: Mapping[str, Any]
+    entry: DeliveryEntry
     line: int | None
+    before: int | None
+    after: int | None
 
 
-def run_view(sidecar: Sidecar, run: str, chosen: int | None, here: str) -> dict[str, Any]:
+def run_page(sidecar: Sidecar, run: str, wanted: Wanted, here: str) -> dict[str, Any]:
     """Values for ``run.html``.
 
     Args:
         sidecar: Knows the run.
         run: Its identifier.
-        chosen: Which delivery to show; ``None``: the one that asks, failed last, or came last.
+        wanted: Which well a person has chosen.
         here: Path of the page, for links to wells.
 
     Raises:
@@ -61,26 +72,31 @@ def run_view(sidecar: Sidecar, run: str, chosen: int | None, here: str) -> dict[
         StoreError: The store cannot be read.
     """
     overview = sidecar.overview(run)
-    asked = situations(overview, time.time())
-    account = run_account(overview)
-    well = _chosen(sidecar, overview, chosen, [one.trajectory for one in asked])
+    view = run_view(overview, time.time())
+    asked = view.asks[0].trajectory if view.asks else None
+    known = {entry["trajectory"] for entry in overview["trajectories"]}
+    still = wanted.well in known and wanted.run in ("", run)
+    if asked is not None and asked not in (wanted.well, wanted.during):
+        still = False
+    query = {"of": run} if here == "/" else {}
+    query |= {} if asked is None else {"during": str(asked)}
+    paused = any(one.kind == "paused" and not one.answered for one in view.asks)
     return {
         "run": overview,
-        "account": account,
-        "plates": plate_maps(overview["trajectories"]),
-        "situations": asked,
-        "asked": [one for one in asked if one.asks],
-        "asked_here": any(one.asks and well and one.trajectory == well.trajectory for one in asked),
-        "can_order": not overview["finished"] and not any(one.kind == "paused" for one in asked),
-        "doing": doing(overview),
-        "well": well,
+        "view": view,
+        "account": run_account(overview),
+        "well": _chosen(sidecar, overview, view, wanted.well if still else asked),
+        "browsing": still and wanted.well != asked,
+        "can_order": view.state != "ended" and not paused,
         "here": here,
+        "wells": f"{here}?{urlencode([*query.items(), ('well', '')])}",
+        "now": time.time(),
     }
 
 
 def history_view(sidecar: Sidecar, search: str, skip: int) -> dict[str, Any]:
     """Values for ``history.html``."""
-    found = sidecar.store.runs(search, RUNS_SHOWN + 1, skip)
+    found = runs_overview(sidecar.store, search, RUNS_SHOWN + 1, skip)
     return {
         "runs": found[:RUNS_SHOWN],
         "search": search,
@@ -95,18 +111,13 @@ def live_run(sidecar: Sidecar) -> str | None:
     return str(runs[0]["run"]) if runs else None
 
 
-def frame_pictures(sidecar: Sidecar, run: str, sequence: int, box: Box | None) -> Any:
-    """A keyframe's pictures, cut once: a page that follows a run shows them again and again."""
-    return _cut(sidecar, run, sequence, box)
-
-
 def _chosen(
-    sidecar: Sidecar, overview: Mapping[str, Any], chosen: int | None, asking: list[int | None]
+    sidecar: Sidecar, overview: RunOverview, view: RunView, chosen: int | None
 ) -> ChosenWell | None:
     entries = {entry["trajectory"]: entry for entry in overview["trajectories"]}
-    flagged = [number for number, entry in entries.items() if is_flagged(entry)]
     seen = [number for number, entry in entries.items() if entry["keyframes"]]
-    wanted = [chosen, *asking, *reversed(flagged), *reversed(seen)]
+    judged = [number for number in seen if entries[number]["verdict"]]
+    wanted = [chosen, *reversed(view.flagged), *reversed(judged), *reversed(seen)]
     number = next((n for n in wanted if n is not None and n in entries), None)
     if number is None:
         return None
@@ -116,22 +127,24 @@ def _chosen(
     def pictures(sequence: int, box: Box | None) -> tuple[Picture | None, Picture | None, str]:
         return _cut(sidecar, run, sequence, box)
 
-    well = seen_well(run, entry, pictures)
-    line = entry["keyframes"][-1]["line"] if entry["keyframes"] else None
-    return ChosenWell(number, state_of(entry), well, entry, line)
+    return ChosenWell(
+        number,
+        state_of(entry),
+        short_name(entry),
+        seen_well(run, entry, pictures),
+        entry,
+        entry["keyframes"][-1]["line"] if entry["keyframes"] else None,
+        max((one for one in view.flagged if one < number), default=None),
+        min((one for one in view.flagged if one > number), default=None),
+    )
 
 
 @lru_cache(maxsize=64)
 def _cut(
     sidecar: Sidecar, run: str, sequence: int, box: Box | None
 ) -> tuple[Picture | None, Picture | None, str]:
-    def frame(number: int) -> bytes | None:
-        try:
-            return sidecar.store.frame(run, number)
-        except StoreError:
-            return None
-
-    return cut_pictures(frame)(sequence, box)
+    """A keyframe's pictures, cut once: a page that follows a run shows them again and again."""
+    return cut_pictures(sidecar.store.frames_of(run))(sequence, box)
 
 
 def run_address(run: str, well: int | None = None) -> str:

@@ -99,13 +99,42 @@ class Layer1Words(Body):
     note: Text = ""
 
 
+class PlateSize(Body):
+    """A piece of labware that the run delivers into, and how many rows and columns it has."""
+
+    labware: Word
+    label: Word = ""
+    slot: Word = ""
+    rows: Annotated[int, Field(ge=1, le=100)]
+    columns: Annotated[int, Field(ge=1, le=100)]
+
+
+class RackLabel(Body):
+    """A tip rack that the protocol gave a label: its lot, say."""
+
+    slot: Word
+    label: Word
+
+
+class PlannedDelivery(Body):
+    """A delivery of the rehearsal: the wells, none where it was given up."""
+
+    labware: Word = ""
+    wells: Annotated[list[Word], Field(max_length=384)] = []
+
+
 class RunStart(Body):
-    """A run registers. ``nonce`` is this start's own: drawn anew whenever a guard begins."""
+    """A run registers. ``nonce`` is this start's own: drawn anew whenever a guard begins.
+
+    ``plates`` and ``planned`` are what the rehearsal delivered, ``planned_wells`` into how many
+    wells; of a long run ``planned`` holds the beginning.
+    """
 
     run: str
     nonce: Word = ""
     protocol_sha256: Word = ""
     protocol: Word = ""
+    title: Word = ""
     robot: Word = ""
     robot_name: Word = ""
     api_level: Word = ""
@@ -115,6 +144,10 @@ class RunStart(Body):
     mode: Literal["guard", "watch"] = "guard"
     guard: GuardWords | None = None
     layer1: Layer1Words | None = None
+    plates: Annotated[list[PlateSize], Field(max_length=100)] = []
+    racks: Annotated[list[RackLabel], Field(max_length=100)] = []
+    planned: Annotated[list[PlannedDelivery], Field(max_length=5000)] = []
+    planned_wells: Count = 0
 
     def is_again(self, other: RunStart) -> bool:
         """Whether this is the same start, told once more, and not another one of this name.
@@ -130,18 +163,18 @@ class RunStart(Body):
         )
 
 
-class Abandon(Body):
+class AbandonReport(Body):
     """A trajectory ends without further keyframes."""
 
     reason: Text = ""
 
 
-class Hold(Body):
+class HoldReport(Body):
     """How long the robot held, what ended it, and what it does then.
 
     Told again, under the same number, when a pause is over, with how long it lasted and who ended
     it: ``"page"``, ``"robot"`` (its own screen, or the App) or ``"console"``. A guard that counts
-    no holds has one for each trajectory.
+    no holds has one for each trajectory. ``next`` is what the robot does when it goes on.
     """
 
     number: Count = 0
@@ -151,9 +184,10 @@ class Hold(Body):
     policy: Word | None = None
     paused_s: Annotated[float, Field(ge=0)] | None = None
     answered: Word | None = None
+    next: Word = ""
 
 
-class Recovery(Body):
+class RecoveryReport(Body):
     """What the robot does by itself about a failed delivery, told when it begins and again when
     it has ended. ``by`` is the delivery that put it right, or failed to.
     """
@@ -176,11 +210,15 @@ class Incident(Body):
 
 
 class Finish(Body):
-    """A run ends; ``layer1`` where that says another thing than at the start."""
+    """A run ends; ``layer1`` where that says another thing than at the start. ``trajectories`` and
+    ``keyframes``: how many the robot itself had begun, and meant to have captured.
+    """
 
     outcome: Literal["succeeded", "failed", "stopped", "aborted"]
     detail: Text = ""
     layer1: Layer1Words | None = None
+    trajectories: Count | None = None
+    keyframes: Count | None = None
 
 
 class Decision(Body):
@@ -192,14 +230,14 @@ class Decision(Body):
 
 
 class Action(Body):
-    """The operator tells a paused robot to go on, or to end the run."""
+    """The operator tells a paused robot to go on, to try a failed step again, or to end the run."""
 
-    action: Literal["resume", "stop"]
+    action: Literal["resume", "retry", "stop"]
     by: Person
     note: Text = ""
 
 
-class Order(Body):
+class OrderRequest(Body):
     """The operator tells a robot that moves to pause, or to end the run."""
 
     action: Literal["pause", "stop"]

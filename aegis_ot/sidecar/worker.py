@@ -13,7 +13,7 @@ from typing import Any
 from ..errors import CameraError, StoreError
 from ..vision.camera import Frame
 from ..vocabulary import Keyframe, KeyframeKind, Verdict
-from .analysis import Analyser, Judged, RunAnalyser, plain, tell_late, undecided
+from .analysis import Analyser, Judged, RunAnalysis, plain, tell_late, undecided
 from .cameras.codec import decode_jpeg
 from .store import Store
 
@@ -65,7 +65,7 @@ class AnalysisWorker:
         self._dropped: set[int] = set()
         self._failed: dict[int, str] = {}
         self._seen: dict[int, set[KeyframeKind]] = {}
-        self._analysis: RunAnalyser | None = None
+        self._analysis: RunAnalysis | None = None
         self._trouble: str | None = None
         self._thread: threading.Thread | None = None
 
@@ -147,7 +147,7 @@ class AnalysisWorker:
             log.exception("The analyser could not begin run %s", self._run)
             self._trouble = f"The analyser could not begin: {_say(error)}"
 
-    def _next(self, run: RunAnalyser | None) -> tuple[Keyframe, Frame | None, float] | None:
+    def _next(self, run: RunAnalysis | None) -> tuple[Keyframe, Frame | None, float] | None:
         """What is to be scored next; ``None`` if the thread is to end."""
         with self._news:
             while True:
@@ -168,7 +168,7 @@ class AnalysisWorker:
     def _has_news(self) -> bool:
         return bool(self._tasks or self._confirmed or self._closed)
 
-    def _observe(self, run: RunAnalyser, keyframe: Keyframe, frame: Frame | None) -> None:
+    def _observe(self, run: RunAnalysis, keyframe: Keyframe, frame: Frame | None) -> None:
         try:
             self._store.settle(keyframe.run, keyframe.sequence)
             run.observe(keyframe, self._reload(keyframe) if frame is None else frame)
@@ -178,14 +178,14 @@ class AnalysisWorker:
                 f"The {keyframe.kind.value} frame could not be analysed: {_say(error)}"
             )
 
-    def _confirm(self, run: RunAnalyser | None, trajectory: int) -> None:
+    def _confirm(self, run: RunAnalysis | None, trajectory: int) -> None:
         try:
             if run is not None:
                 run.confirm(trajectory)
         except Exception:
             log.exception("Trajectory %d of run %s, confirmed", trajectory, self._run)
 
-    def _judge(self, run: RunAnalyser | None, trajectory: int) -> tuple[Verdict, dict[str, Any]]:
+    def _judge(self, run: RunAnalysis | None, trajectory: int) -> tuple[Verdict, dict[str, Any]]:
         failed = self._failed.pop(trajectory, None)
         if self._seen.pop(trajectory, set()) != set(KeyframeKind):
             failed = failed or "Not all four of its moments are kept: nobody saw the others."
@@ -206,7 +206,8 @@ class AnalysisWorker:
         if jpeg is None:
             raise StoreError("its frame is not in the store")
         # The exposure's moment on the clock of an earlier process means nothing now.
-        return Frame(jpeg, decode_jpeg(jpeg), 0.0)
+        simulated = bool((self._store.run(keyframe.run) or {}).get("simulated"))
+        return Frame(jpeg, decode_jpeg(jpeg), 0.0, simulated)
 
 
 def _problem(verdict: Any, run: str, trajectory: int) -> str:

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .optics import Pinhole
-from .session import Labware, SessionParameters
+from .session import SessionLabware, SessionParameters
 
 Plane = NDArray[np.float32]
 BACK_MM = 190.0
@@ -26,7 +26,8 @@ def draw_backdrop(parameters: SessionParameters, camera: Pinhole) -> Plane:
     )
     if parameters.clutter > 0:
         _clutter(image, parameters, rng)
-    far, right = BACK_MM + 1.0, parameters.panel_right_mm
+    blocks = [block.y + block.DEPTH for block in parameters.labware]
+    far, right = max(BACK_MM, *blocks, BACK_MM) + 1.0, parameters.panel_right_mm
     _polygon(
         image, camera, [(-700, far, 0), (right, far, 0), (right, -260, 0), (-700, -260, 0)],
         parameters.deck,
@@ -94,7 +95,7 @@ def _slots(image: Plane, camera: Pinhole, parameters: SessionParameters) -> None
         cv2.line(image, (int(a[0]), int(a[1])), (int(b[0]), int(b[1])), shade, 1, cv2.LINE_AA, 4)
 
 
-def _block(image: Plane, camera: Pinhole, block: Labware, rng: np.random.Generator) -> None:
+def _block(image: Plane, camera: Pinhole, block: SessionLabware, rng: np.random.Generator) -> None:
     left, right = block.x - block.WIDTH / 2, block.x + block.WIDTH / 2
     front, back, top = block.y - block.DEPTH / 2, block.y + block.DEPTH / 2, block.height_mm
     shadow = 5.0

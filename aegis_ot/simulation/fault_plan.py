@@ -44,6 +44,7 @@ class FaultPlan:
 
     - ``no_aspirate``: air is drawn; what is left from before stays.
     - ``air_bubble``: that share of the volume is air, a third of the way up the column.
+    - ``overdraw``: that share more is drawn, and stays in the tip.
     - ``partial``, ``no_dispense``: less or nothing leaves the tip. The rest stays in it, also for
       the next wells if the tip is used again: a normal dispense pushes out the commanded volume
       and no more. It ends when the robot reports another tip. Keyframes do not tell of blow-outs,
@@ -201,6 +202,8 @@ def _wells_of(keyframe: Keyframe) -> tuple[WellRef | None, ...]:
 def _draw(content: TipContent, volume: float, faults: dict[FaultKind, Fault]) -> TipContent:
     if FaultKind.NO_ASPIRATE in faults:
         return content
+    if FaultKind.OVERDRAW in faults:
+        volume *= 1 + faults[FaultKind.OVERDRAW].amount
     bubble = faults.get(FaultKind.AIR_BUBBLE)
     air = volume * bubble.amount if bubble else 0.0
     # New liquid enters at the orifice and pushes up what was there.

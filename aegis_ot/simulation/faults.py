@@ -6,6 +6,7 @@ A fault is written ``KIND@WELL``, as the command line takes it::
     no_aspirate@C4       nothing is drawn for C4
     no_dispense@#12      nothing is dispensed in the run's 12th trajectory
     air_bubble@D1        air in the column drawn for D1 (8 % of the volume; air_bubble:15@D1)
+    overdraw:25@D2       a quarter more is drawn for D2 than told, and stays in the tip
     no_tip@E1            no tip on the nozzle while E1 is served
     partial:50@2:B3      only in the labware in slot 2
     no_aspirate@C4x1     only the first time that C4 is served; x2: the first two times
@@ -22,9 +23,9 @@ from ..errors import ConfigurationError
 from ..vocabulary import WellRef
 
 FORMS = (
-    "KIND@WELL with KIND partial:PERCENT, no_aspirate, no_dispense, air_bubble[:PERCENT] or "
-    "no_tip, and WELL a destination such as B3, 2:B3 (slot 2), B3x1 (the first time only) or #12 "
-    "(the 12th trajectory); "
+    "KIND@WELL with KIND partial:PERCENT, no_aspirate, no_dispense, air_bubble[:PERCENT], "
+    "overdraw:PERCENT or no_tip, and WELL a destination such as B3, 2:B3 (slot 2), B3x1 (the "
+    "first time only) or #12 (the 12th trajectory); "
     "for example partial:50@B3"
 )
 
@@ -36,6 +37,7 @@ class FaultKind(str, Enum):
     NO_ASPIRATE = "no_aspirate"
     NO_DISPENSE = "no_dispense"
     AIR_BUBBLE = "air_bubble"
+    OVERDRAW = "overdraw"
     NO_TIP = "no_tip"
 
 
@@ -76,7 +78,7 @@ class Fault:
         kind: What goes wrong.
         where: For which trajectories.
         amount: ``PARTIAL``: fraction of the volume that is dispensed. ``AIR_BUBBLE``: fraction
-            of the drawn volume that is air. Otherwise 0.
+            of the drawn volume that is air. ``OVERDRAW``: what is drawn beyond it. Otherwise 0.
     """
 
     kind: FaultKind
@@ -121,13 +123,13 @@ def _wrong(text: str, why: str) -> ConfigurationError:
 
 
 def _parse_amount(text: str, kind: FaultKind, colon: str, number: str) -> float:
-    if kind is FaultKind.PARTIAL and not colon:
-        raise _wrong(text, "a partial dispense needs the percentage dispensed")
+    if kind in (FaultKind.PARTIAL, FaultKind.OVERDRAW) and not colon:
+        raise _wrong(text, f"{kind.value} needs a percentage")
     if kind is FaultKind.AIR_BUBBLE and not colon:
         return 0.08
     if not colon:
         return 0.0
-    if kind not in (FaultKind.PARTIAL, FaultKind.AIR_BUBBLE):
+    if kind not in (FaultKind.PARTIAL, FaultKind.AIR_BUBBLE, FaultKind.OVERDRAW):
         raise _wrong(text, f"{kind.value} takes no percentage")
     try:
         percent = float(number.strip().rstrip("%"))

@@ -15,7 +15,7 @@ Plane = NDArray[np.float32]
 
 
 @dataclass(frozen=True)
-class TipView:
+class TipPatch:
     """The patch of a frame that a tip covers.
 
     Attributes:
@@ -48,7 +48,7 @@ def meniscus_height(top: float, u: Plane, inner: Plane) -> Plane:
 
 
 def edges(
-    u: Plane, inner: Plane, outer: Plane, wet: Plane, view: TipView, p: SessionParameters
+    u: Plane, inner: Plane, outer: Plane, wet: Plane, view: TipPatch, p: SessionParameters
 ) -> Plane:
     """Bright rims: the outer silhouette, and the bore, which liquid nearly hides."""
     # The lines are thin: on a tip of a few pixels they fade instead of covering it.
@@ -63,7 +63,7 @@ def edges(
     )
 
 
-def glints(view: TipView, inner: Plane, outer: Plane, wet: Plane, p: SessionParameters) -> Plane:
+def glints(view: TipPatch, inner: Plane, outer: Plane, wet: Plane, p: SessionParameters) -> Plane:
     """The lamp's image along the outside, and the one that a liquid column adds inside."""
     width = 0.08 * outer
     soft = np.maximum(width, view.mm_per_px * 0.5)
@@ -76,7 +76,7 @@ def glints(view: TipView, inner: Plane, outer: Plane, wet: Plane, p: SessionPara
 
 
 def menisci(
-    view: TipView, tip: TipGeometry, content: TipContent, inner: Plane, p: SessionParameters
+    view: TipPatch, tip: TipGeometry, content: TipContent, inner: Plane, p: SessionParameters
 ) -> Plane:
     """A bright line over a dark one at each surface between liquid and air."""
     u = np.abs(view.across)
@@ -94,7 +94,7 @@ def menisci(
     return np.asarray(lines * (u < inner) * (0.4 + p.glint), np.float32)
 
 
-def specks(view: TipView, tip: TipGeometry, p: SessionParameters) -> Plane:
+def specks(view: TipPatch, tip: TipGeometry, p: SessionParameters) -> Plane:
     """Bright points anywhere in the tip, about a pixel in size."""
     total = np.zeros_like(view.across)
     if p.specks <= 0:

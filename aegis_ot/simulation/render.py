@@ -19,7 +19,7 @@ from ..vocabulary import KeyframeKind
 from .backdrop import draw_backdrop, light_field
 from .exposure import decode, encode, expose, frame_gain
 from .optics import Pinhole, on_plane
-from .reflections import TipView
+from .reflections import TipPatch
 from .scene import SceneState, TipContent
 from .session import SessionParameters
 from .shading import shade_tip
@@ -143,7 +143,7 @@ def _draw(
         ys, xs = np.mgrid[y0:y1, x0:x1]
         pixels = np.stack([xs.ravel() + 0.5, ys.ravel() + 0.5, np.ones(xs.size)])
         across, along, w = np.linalg.inv(plane) @ pixels
-        view = TipView(
+        view = TipPatch(
             across=(across / w).reshape(xs.shape).astype(np.float32),
             along=(along / w).reshape(xs.shape).astype(np.float32),
             mm_per_px=mm_per_px,

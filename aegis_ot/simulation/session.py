@@ -18,7 +18,7 @@ Colour = tuple[float, float, float]
 
 
 @dataclass(frozen=True)
-class Labware:
+class SessionLabware:
     """A block of labware on the deck: centre (x, y) and height in mm, wells, colour."""
 
     x: float
@@ -119,7 +119,7 @@ class SessionParameters:
     shaft_mm: float = 45.0
     body_mm: float = 30.0
     panel_right_mm: float = 700.0
-    labware: tuple[Labware, ...] = ()
+    labware: tuple[SessionLabware, ...] = ()
     seed: int = 0
 
     @property
@@ -282,21 +282,21 @@ def _tint(rng: np.random.Generator, level: float, spread: float) -> Colour:
     return (float(b), float(g), float(r))
 
 
-def _labware(rng: np.random.Generator | None) -> tuple[Labware, ...]:
+def _labware(rng: np.random.Generator | None) -> tuple[SessionLabware, ...]:
     pitch = 132.5  # distance of OT-2 slots, mm
     if rng is None:
         return (
-            Labware(-pitch / 2, 0.0, 31.4, (196.0, 196.0, 194.0), 12, 1, 4.1),
-            Labware(pitch / 2, 0.0, 14.5, (205.0, 204.0, 202.0)),
+            SessionLabware(-pitch / 2, 0.0, 31.4, (196.0, 196.0, 194.0), 12, 1, 4.1),
+            SessionLabware(pitch / 2, 0.0, 14.5, (205.0, 204.0, 202.0)),
         )
     u = rng.uniform
 
-    def block(x: float) -> Labware:
+    def block(x: float) -> SessionLabware:
         columns, rows, radius = [(12, 8, 3.3), (6, 4, 8.0), (12, 1, 4.1), (12, 8, 2.6)][
             int(rng.integers(4))
         ]
         colour = _tint(rng, u(90.0, 225.0), 0.03 if rng.random() < 0.6 else 0.4)
         clipped = (min(colour[0], 240.0), min(colour[1], 240.0), min(colour[2], 240.0))
-        return Labware(x, u(-6.0, 6.0), u(10.0, 42.0), clipped, columns, rows, radius)
+        return SessionLabware(x, u(-6.0, 6.0), u(10.0, 42.0), clipped, columns, rows, radius)
 
     return tuple(block(x) for x in (-pitch / 2, pitch / 2, 1.5 * pitch, -1.5 * pitch))

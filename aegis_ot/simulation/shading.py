@@ -14,7 +14,7 @@ from ..vision.tips import TipGeometry
 from .dyes import REFERENCE_PATH_MM, Dye
 from .reflections import (
     Plane,
-    TipView,
+    TipPatch,
     column_edges,
     edges,
     glints,
@@ -28,7 +28,7 @@ from .session import SessionParameters
 
 def shade_tip(
     behind: Plane,
-    view: TipView,
+    view: TipPatch,
     tip: TipGeometry,
     content: TipContent,
     dye: Dye,
@@ -48,7 +48,7 @@ def shade_tip(
 
 def _tip(
     image: Plane,
-    view: TipView,
+    view: TipPatch,
     tip: TipGeometry,
     content: TipContent,
     dye: Dye,
@@ -99,7 +99,7 @@ def _tip(
     return np.asarray(image, np.float32)
 
 
-def _cover(distance_mm: Plane, view: TipView) -> Plane:
+def _cover(distance_mm: Plane, view: TipPatch) -> Plane:
     """Share of a pixel that lies on the positive side of an edge."""
     return np.asarray(np.clip(distance_mm / view.mm_per_px + 0.5, 0, 1), np.float32)
 
@@ -111,7 +111,7 @@ def _step(distance: Plane, width_10_90: Plane | float) -> Plane:
 
 
 def _liquid(
-    view: TipView, tip: TipGeometry, content: TipContent, inner: Plane, p: SessionParameters
+    view: TipPatch, tip: TipGeometry, content: TipContent, inner: Plane, p: SessionParameters
 ) -> Plane:
     """Share of liquid at each pixel of the bore, 0 to 1."""
     u = np.abs(view.across)
@@ -127,7 +127,7 @@ def _liquid(
     return np.asarray(share * (view.along > -0.2), np.float32)
 
 
-def _refract(image: Plane, view: TipView, strength: float) -> Plane:
+def _refract(image: Plane, view: TipPatch, strength: float) -> Plane:
     """What is behind, mirrored about the axis and widened."""
     height, width = view.across.shape
     ys, xs = np.mgrid[0:height, 0:width].astype(np.float32)
@@ -138,14 +138,14 @@ def _refract(image: Plane, view: TipView, strength: float) -> Plane:
     )
 
 
-def _piping(view: TipView, wet: Plane, p: SessionParameters) -> Plane:
+def _piping(view: TipPatch, wet: Plane, p: SessionParameters) -> Plane:
     """Light from the labware below that runs up the column."""
     reach = np.exp(-np.maximum(view.along - view.hidden_below, 0) / 22.0)
     return np.asarray(p.piping * wet * reach, np.float32)
 
 
 def _film_path(
-    view: TipView, tip: TipGeometry, content: TipContent, inner: Plane, wet: Plane
+    view: TipPatch, tip: TipGeometry, content: TipContent, inner: Plane, wet: Plane
 ) -> Plane:
     """Path of light through what is left on the wall: a thin film and a few beads, mm."""
     if content.film_ul <= 0:
@@ -173,7 +173,7 @@ def _transmission(dye: Dye, path: Plane, p: SessionParameters) -> Plane:
     return np.asarray(np.exp(path[..., None] * (logs / np.float32(REFERENCE_PATH_MM))), np.float32)
 
 
-def _drop(image: Plane, view: TipView, drop_ul: float, dye: Dye, p: SessionParameters) -> Plane:
+def _drop(image: Plane, view: TipPatch, drop_ul: float, dye: Dye, p: SessionParameters) -> Plane:
     radius = float(np.cbrt(3 * drop_ul / (4 * np.pi)))
     away = np.hypot(view.across, view.along + 0.8 * radius)
     cover = _cover(radius - away, view)
@@ -187,7 +187,7 @@ def _drop(image: Plane, view: TipView, drop_ul: float, dye: Dye, p: SessionParam
 
 
 def _shaft(
-    behind: Plane, view: TipView, tip: TipGeometry, present: bool, p: SessionParameters
+    behind: Plane, view: TipPatch, tip: TipGeometry, present: bool, p: SessionParameters
 ) -> Plane:
     """The pipette's nozzle and shaft: an opaque cylinder that narrows at its end."""
     end = tip.free_mm
@@ -208,7 +208,7 @@ def _shaft(
     return np.asarray(behind + cover[..., None] * (colour - behind), np.float32)
 
 
-def _hide(image: Plane, behind: Plane, view: TipView) -> Plane:
+def _hide(image: Plane, behind: Plane, view: TipPatch) -> Plane:
     """Labware hides what is below its rim; the well's far wall shows a little of the tip."""
     if view.hidden_below <= -50:
         return image

@@ -7,15 +7,6 @@ from ..lazy import door
 if TYPE_CHECKING:
     from .types import Detector, Image, Scorer, TipDetection, TrajectorySample
 
-__getattr__ = door(
-    __name__,
-    {
-        "Detector": "types",
-        "Image": "types",
-        "Scorer": "types",
-        "TipDetection": "types",
-        "TrajectorySample": "types",
-    },
-)
+__getattr__ = door(__name__, {"types": "Detector Image Scorer TipDetection TrajectorySample"})
 
 __all__ = ["Detector", "Image", "Scorer", "TipDetection", "TrajectorySample"]

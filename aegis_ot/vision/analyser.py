@@ -9,23 +9,31 @@ from typing import Any
 
 from ..vocabulary import Gate, Keyframe, KeyframeKind, Outcome, Route, Verdict
 from .calibration import CalibrationState
+from .calibration_group import CalibrationGroup, OpenTrajectory
 from .camera import Frame
 from .cascade import Triage
+from .column_look import Looks
 from .delivery import Delivery, delivery_of
 from .evidence import evidence_of
 from .first_wells import FirstWells, Liquid, liquid_of
-from .gates import Case, GateDecision, Gates, in_sentences
+from .gates import GateDecision, GateInput, Gates, in_sentences
 from .leftover import Leftover, Leftovers, still_there
 from .pressure import found_in, weighed
+from .registration.locating import TipLocator
 from .second_opinion import SecondOpinion
-from .stream import OpenTrajectory, Stream
-from .types import Detector, TrajectorySample, is_image
+from .tips import tip_for
+from .types import FREE, Detector, TrajectorySample, is_image
 
 MOST_OPEN = 32
 """Trajectories whose frames are kept at once: one that is never judged must not fill memory."""
 
 MOST_ASKED = 2
 """Undecided first wells whose frames are kept, to learn from them once the operator vouches."""
+
+_CUT_OFF = (
+    "The tip's upper end is outside the picture: a column that reaches up there cannot be measured "
+    "whole. Aim the camera higher (aegis-ot aim says at which wells)."
+)
 
 Judged = tuple[Verdict, Mapping[str, Any]]
 
@@ -34,10 +42,10 @@ Judged = tuple[Verdict, Mapping[str, Any]]
 class _Well:
     """What a run learns from."""
 
-    stream: Stream
+    stream: CalibrationGroup
     liquid: Liquid
-    case: Case
-    looks: dict[KeyframeKind, object]
+    case: GateInput
+    looks: Looks
     clean: bool
     """Whether its tip holds nothing that an earlier well left: else it looks like no other."""
     last: Keyframe
@@ -46,7 +54,7 @@ class _Well:
 class RunAnalyser:
     """Judges the trajectories of one run, one call at a time.
 
-    Calibration is per liquid and pipette: see :class:`~.stream.Stream`.
+    Calibration is per liquid and pipette: see :class:`~.calibration_group.CalibrationGroup`.
 
     It follows one tip; of several, the one that the detector picks. The tips of a multi-channel
     pipette are followed by one analyser each: see :mod:`.rows`.
@@ -64,7 +72,7 @@ class RunAnalyser:
         self,
         run: str,
         detector: Detector,
-        make_stream: Callable[[Stream | None], Stream],
+        make_stream: Callable[[CalibrationGroup | None], CalibrationGroup],
         gates: Gates,
         first: FirstWells,
         second: SecondOpinion,
@@ -72,12 +80,14 @@ class RunAnalyser:
         self.run = run
         self._second = second
         self._detector = detector
+        self._locator = TipLocator(detector)
+        self._cut_off_told = False
         self._make_stream = make_stream
         self._gates = gates
         self._first = first
         self._leftovers = Leftovers()
         self._asked: dict[int, _Well] = {}
-        self._streams: dict[Liquid, Stream] = {}
+        self._streams: dict[Liquid, CalibrationGroup] = {}
         self._open: dict[int, OpenTrajectory] = {}
 
     def observe(self, keyframe: Keyframe, frame: Frame) -> None:
@@ -90,7 +100,16 @@ class RunAnalyser:
         if not is_image(image):
             trajectory.unusable.append(kind)
             return
-        detection = self._detector.detect(image)
+        tip = tip_for(keyframe.pipette, keyframe.capacity_ul)
+        # Where the robot holds the tip says nothing of a picture that is drawn or replayed.
+        place = None if frame.simulated else keyframe.position
+        located = self._locator.locate(image, place, tip.name, kind not in FREE)
+        detection = located.detection
+        expected = located.expected
+        if expected is not None and expected.is_sure:
+            trajectory.projected[kind] = expected.as_detection(tip)
+            size = (image.shape[1], image.shape[0])
+            trajectory.cut_off |= kind in FREE and expected.lacking(size) == "upper end"
         trajectory.frames[kind] = image
         trajectory.detections[kind] = detection
         if detection is not None:
@@ -137,6 +156,9 @@ class RunAnalyser:
             clean = self._leftovers.known(last) is None
             well = _Well(stream, liquid_of(last), case, dict(seen.looks), clean, last)
             decision = self._learn(well, trajectory, weighed(decision, last, case.delivery))
+        if seen.cut_off and not self._cut_off_told:
+            self._cut_off_told = True
+            decision = replace(decision, reason=in_sentences(decision.reason, _CUT_OFF))
         self._leftovers.note(last, case, decision)
         kept = self._leftovers.known(last)
         evidence = evidence_of(liquid_of(last), stream, case, seen, triage, decision, kept)
@@ -184,8 +206,12 @@ class RunAnalyser:
             stream.cascade.learn(score, normal=normal, volume_ul=volume)
 
     def _case(
-        self, stream: Stream, seen: OpenTrajectory, sample: TrajectorySample, last: Keyframe
-    ) -> Case:
+        self,
+        stream: CalibrationGroup,
+        seen: OpenTrajectory,
+        sample: TrajectorySample,
+        last: Keyframe,
+    ) -> GateInput:
         missing = tuple(
             kind
             for kind, found in seen.detections.items()
@@ -194,29 +220,30 @@ class RunAnalyser:
         readings = stream.reader.read(seen.looks, sample.expected_ul)
         score = stream.scorer.score(sample, seen.excused)
         p_value = stream.p_value(score)
-        return Case(
+        case = GateInput(
             sample, Route.GREY_ZONE, score, readings, missing, stream.learned > 0, p_value,
             clearly_absent=seen.clearly_absent,
             delivery=self._delivery(seen, last),
             signs={} if score is None else stream.scorer.signs(sample), normal=stream.normal,
             tip_doubted=self._leftovers.doubted(last),
         )  # fmt: skip
+        return replace(case, beyond_lab=stream.beyond_lab(case, seen))
 
     def _delivery(self, seen: OpenTrajectory, last: Keyframe, left_ul: float = 0.0) -> Delivery:
         """What a trajectory shows of its delivery, if the tip held so much before and after, µL."""
         expected = {kind: frame.expected_ul + left_ul for kind, frame in seen.keyframes.items()}
         return self._first.held_against(liquid_of(last), delivery_of(seen.looks, expected))
 
-    def _stream(self, keyframe: Keyframe) -> Stream:
+    def _stream(self, keyframe: Keyframe) -> CalibrationGroup:
         return self._stream_of(liquid_of(keyframe))
 
-    def _stream_of(self, key: Liquid) -> Stream:
+    def _stream_of(self, key: Liquid) -> CalibrationGroup:
         if key not in self._streams:
             kin = next((s for k, s in self._streams.items() if k[:2] == key[:2]), None)
             self._streams[key] = self._make_stream(kin)
         return self._streams[key]
 
-    def _decide(self, stream: Stream, case: Case, triage: Triage) -> GateDecision:
+    def _decide(self, stream: CalibrationGroup, case: GateInput, triage: Triage) -> GateDecision:
         if triage.route is Route.CALIBRATION:
             gross = self._gates.screen(case)
             if gross.outcome is Outcome.FAIL:
@@ -240,7 +267,8 @@ class RunAnalyser:
 
     def _learn(self, well: _Well, trajectory: int, decision: GateDecision) -> GateDecision:
         """Calibrate on a well, unless the operator has to look at it first."""
-        unseen = decision.outcome is Outcome.PASS and decision.gate in (Gate.NONE, Gate.VOLUMETRIC)
+        looked = decision.gate.traits.is_model or decision.gate.traits.is_person
+        unseen = decision.outcome is Outcome.PASS and not looked
         ask, found = self._first.question, found_in(well.last)
         question = ask(well.liquid, well.case.delivery, found) if unseen else ""
         if question:
@@ -283,7 +311,7 @@ class RunAnalyser:
         return seen.sample(self.run)
 
 
-def _verdict(run: str, trajectory: int, case: Case, decision: GateDecision) -> Verdict:
+def _verdict(run: str, trajectory: int, case: GateInput, decision: GateDecision) -> Verdict:
     emptied = case.readings.get(KeyframeKind.POST_DISPENSE)
     readable = emptied if emptied is not None and not emptied.vague else None
     return Verdict(
@@ -302,7 +330,7 @@ def _verdict(run: str, trajectory: int, case: Case, decision: GateDecision) -> V
     )
 
 
-def _with_doubt(stream: Stream, decision: GateDecision) -> GateDecision:
+def _with_doubt(stream: CalibrationGroup, decision: GateDecision) -> GateDecision:
     """Tell of an earlier well that turned out to be suspect, once, with the next that passes."""
     if not stream.doubt or decision.outcome is not Outcome.PASS:
         return decision

@@ -4,7 +4,7 @@ The scale of a score drifts by a factor of two between sessions (paper, "Per-run
 So each run anchors itself on its first wells, which are assumed normal. How unusual a score is
 among the normals of earlier runs is the world model's to say: see
 :class:`~.scorers.ensemble.EnsembleScorer`, whose docstring states what that assumes, and
-:meth:`.stream.Stream.p_value`, which takes it against this run's own.
+:meth:`.calibration_group.CalibrationGroup.p_value`, which takes it against this run's own.
 """
 
 from __future__ import annotations

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..vocabulary import KeyframeKind
 from .column import TipProfile
 from .tips import TipGeometry
+from .types import Axis
 
 _ORIFICE = (0.06, 8.0)
 """What is left out next to the orifice, tip lengths and px: its rim glints, and a drop hangs."""
@@ -22,11 +25,13 @@ class Look:
         profile: Of the tip.
         tip: Its geometry.
         light: Median brightness of the whole frame: the pipette covers little of it.
+        axis: Both ends of the tip in the frame, px; ``None`` where they are not known.
     """
 
     profile: TipProfile
     tip: TipGeometry
     light: float = 0.0
+    axis: Axis | None = None
 
     @property
     def lowest(self) -> float:
@@ -46,6 +51,6 @@ class Look:
         px_per_mm = self.profile.length / self.tip.length_mm
         return np.asarray(2.0 * self.tip.inner_radius(heights) * px_per_mm, dtype=np.float64)
 
-    def wide_down_to(self, bore_px: float) -> float:
-        """Lowest place (u) whose bore is at least so wide, px."""
-        return float(self.profile.u[self.bores >= bore_px].max(initial=0.0))
+
+Looks = Mapping[KeyframeKind, Look]
+"""What is kept of the frames of one trajectory in which a tip was found."""

@@ -9,17 +9,18 @@ from dataclasses import replace
 import numpy as np
 
 from ..vocabulary import KeyframeKind
-from .column import WetAndDry, Wetness, ceiling, column_left
-from .column_look import Look
+from .column import Deliveries, TipShape, WetAndDry, Wetness, at_one_place, ceiling
+from .column_look import Look, Looks
 from .drawn import drawn_top
-from .measuring import ColumnReading, SeenColumn, TipView
+from .measuring import ColumnReading, SeenColumn
 from .scorers.looks import look
 from .tip_scale import NEAR, TipScale
 from .tips import TipGeometry
-from .types import FREE
+from .types import FREE, Image, TipDetection
 from .usual import LEFT, Usual, alike
 
-Well = tuple[Mapping[KeyframeKind, object], Mapping[KeyframeKind, float]]
+Volumes = Mapping[KeyframeKind, float]
+Well = tuple[Looks, Volumes]
 """Looks and expected volumes of one trajectory."""
 
 _EVIDENCE = 5.0
@@ -30,13 +31,6 @@ _SHORTEST = 0.05
 
 _SHARES = np.arange(0.1, 1.01, 0.1)
 """Shares of the column's height that are tried for the smallest column that would be seen."""
-
-_GAP_SHARE = 0.3
-"""Air fills the bore: wetness of a break at most."""
-
-_GAP_BORE_PX = 4.0
-"""Narrowest bore in which a break is looked for, px: a tip that is laid down one pixel beside its
-place shows wall for liquid in a narrower one."""
 
 _REACH = (0.05, 0.15)
 """How far from its expected place a normal column may end, before the run has shown how high its
@@ -49,7 +43,8 @@ class MeasuredColumns:
     """Measures the columns of one run, pipette and liquid.
 
     Normal wells teach it what each row of an empty and of a filled tip looks like before this
-    camera (:class:`~.column.WetAndDry`), how far frames of normal wells stray from that
+    camera (:class:`~.column.WetAndDry`), what changes when it leaves
+    (:class:`~.column.Deliveries`), how far frames of normal wells stray from that
     (:class:`~.usual.Usual`), and how high columns stand in this run's frames against what the
     tip's geometry says (:class:`~.tip_scale.TipScale`). Where liquid hardly shows, a tip that
     looks empty proves nothing, and is read as vague.
@@ -57,88 +52,98 @@ class MeasuredColumns:
 
     def __init__(self) -> None:
         self._contrast = WetAndDry()
-        self._usual = Usual()
+        self._deliveries = Deliveries()
+        # Of frames read alone, and of those that are compared with TRANSIT.
+        self._usuals = {False: Usual(), True: Usual()}
         self._scale = TipScale()
         # Of ends that are seen to the row; those that templates tell are off from them.
         self._seen_scale = TipScale()
         self._fullest = 0.0
 
-    def share_tip(self, other: object) -> None:
+    @property
+    def _usual(self) -> Usual:
+        return self._usuals[False]
+
+    def share_tip(self, other: MeasuredColumns) -> None:
         """Learn the tip's geometry together with the reader of another liquid."""
-        if isinstance(other, MeasuredColumns):
-            self._scale, self._seen_scale = other._scale, other._seen_scale
+        self._scale, self._seen_scale = other._scale, other._seen_scale
 
     def expect_heights(self, factors: Mapping[str, float]) -> None:
         """How high columns stood in earlier runs, over what the geometry says, by tip."""
         self._scale.expect(factors)
         self._seen_scale.expect(factors)
 
-    def look(self, view: TipView) -> Look:
-        self._contrast.prepare()
-        # Shared with the scorers: each frame is straightened once.
-        profile = look(view.image, view.detection, view.tip, shape=view.shape).profile
-        return Look(profile, view.tip, float(np.median(view.image[::16, ::16])))
+    def look(
+        self,
+        frames: Mapping[KeyframeKind, Image],
+        kind: KeyframeKind,
+        detection: TipDetection,
+        tip: TipGeometry,
+        shape: TipShape | None = None,
+    ) -> Look:
+        """What is needed of one frame, taken as soon as it arrives: frames are not kept.
 
-    def read(
-        self, looks: Mapping[KeyframeKind, object], expected: Mapping[KeyframeKind, float]
-    ) -> Mapping[KeyframeKind, ColumnReading]:
+        ``shape``: the tip's outline, once the run has shown which it is.
+        """
+        self._contrast.prepare()
+        self._deliveries.prepare()
+        # Shared with the scorers: each frame is straightened once.
+        seen = look(frames, kind, detection, tip, shape=shape)
+        light = float(np.median(frames[kind][::16, ::16]))
+        return Look(seen.profile, tip, light, (seen.collar, seen.orifice))
+
+    def read(self, looks: Looks, expected: Volumes) -> Mapping[KeyframeKind, ColumnReading]:
+        """Readings of one trajectory; a keyframe that cannot be read is left out."""
         readings: dict[KeyframeKind, ColumnReading] = {}
         drawn = expected.get(KeyframeKind.TRANSIT, 0.0)
         for kind in FREE:
             seen = looks.get(kind)
-            if isinstance(seen, Look):
-                most = drawn if kind is KeyframeKind.POST_DISPENSE else 0.0
-                reading = self._reading(seen, expected.get(kind, 0.0), most)
+            if seen is None:
+                continue
+            most = drawn if kind is KeyframeKind.POST_DISPENSE else 0.0
+            for wet in self._wetnesses(kind, looks, expected):
+                reading = self._reading(wet, seen, expected.get(kind, 0.0), most)
                 if reading is not None:
                     readings[kind] = reading
+                if reading is not None and not reading.vague:
+                    break
         full = readings.get(KeyframeKind.TRANSIT)
         if full is not None:
-            readings[KeyframeKind.TRANSIT] = replace(full, seen=self._seen(looks, expected, full))
-        left = self._pair(looks, expected)
-        after = readings.get(KeyframeKind.POST_DISPENSE, _FIRST_VAGUE)
-        if left is not None and after.vague:
-            readings[KeyframeKind.POST_DISPENSE] = replace(left, excess=after.excess)
+            readings[KeyframeKind.TRANSIT] = replace(full, seen=self._seen(looks, expected))
         return readings
 
-    def learn(
-        self, looks: Mapping[KeyframeKind, object], expected: Mapping[KeyframeKind, float]
-    ) -> None:
+    def learn(self, looks: Looks, expected: Volumes) -> None:
+        """This trajectory was normal: calibrate on it."""
         shown = self._drawn_top(looks, expected)
         for kind in FREE:
             seen = looks.get(kind)
-            if not isinstance(seen, Look):
+            if seen is None:
                 continue
             comparable = self._usual.comparable(seen.light)
-            self._usual.note_light(seen.light)
+            for usual in self._usuals.values():
+                usual.note_light(seen.light)
             volume = expected.get(kind, 0.0)
-            wet = self._wetness(seen) if comparable else None
-            if not comparable or (wet is not None and not volume and self._holds_some(seen, wet)):
+            wets = self._wetnesses(kind, looks, expected) if comparable else []
+            if not comparable or (wets and not volume and self._holds_some(seen, wets[0])):
                 continue
             if volume and shown is not None:
                 self._seen_scale.note(seen.tip, shown, volume)
-            if wet is not None:
+            for wet in wets:
                 self._learn_usual(seen, wet, volume)
-            self._take(seen, volume)
+            self._take(kind, looks, expected)
 
-    def _seen(
-        self,
-        looks: Mapping[KeyframeKind, object],
-        expected: Mapping[KeyframeKind, float],
-        read: ColumnReading,
-    ) -> SeenColumn | None:
+    def _seen(self, looks: Looks, expected: Volumes) -> SeenColumn | None:
         top, full = self._drawn_top(looks, expected), looks.get(KeyframeKind.TRANSIT)
-        if top is None or not isinstance(full, Look) or not self._seen_scale.known:
+        if top is None or full is None or not self._seen_scale.known:
             return None
         volume = self._seen_scale.volume(full.tip, top)
         sigma = self._seen_scale.sigma_ul(full.tip, top, volume)
-        return SeenColumn(max(volume - read.gap_ul, 0.0), sigma, 1.0 - top)
+        return SeenColumn(volume, sigma, 1.0 - top)
 
-    def _drawn_top(
-        self, looks: Mapping[KeyframeKind, object], expected: Mapping[KeyframeKind, float]
-    ) -> float | None:
+    def _drawn_top(self, looks: Looks, expected: Volumes) -> float | None:
         before, after = (looks.get(kind) for kind in FREE)
         drawn, kept = (expected.get(kind, 0.0) for kind in FREE)
-        if not isinstance(before, Look) or not isinstance(after, Look) or drawn <= 0 or kept > 0:
+        if before is None or after is None or drawn <= 0 or kept > 0:
             return None
         place = self._seen_scale.place(before.tip, drawn)
         return drawn_top(before, after, place, _REACH[0] + _REACH[1] * (1.0 - place))
@@ -150,22 +155,32 @@ class MeasuredColumns:
         return self._against(wet, found, place, empty) >= _EVIDENCE
 
     def read_beside(
-        self,
-        looks: Mapping[KeyframeKind, object],
-        expected: Mapping[KeyframeKind, float],
-        others: Sequence[Well],
+        self, looks: Looks, expected: Volumes, others: Sequence[Well]
     ) -> Mapping[KeyframeKind, ColumnReading]:
         """Read a well with what ``others`` alone teach: the well itself may have been learned."""
         return self._taught_by(others).read(looks, expected)
 
     def wetness_beside(
-        self, looks: Mapping[KeyframeKind, object], others: Sequence[Well]
+        self, looks: Looks, expected: Volumes, others: Sequence[Well]
     ) -> dict[KeyframeKind, Wetness]:
         """How wet each row of a well's free frames is, by what ``others`` alone teach."""
         reader = self._taught_by(others)
-        seen = {kind: look for kind in FREE if isinstance(look := looks.get(kind), Look)}
-        wets = {kind: reader._wetness(look) for kind, look in seen.items()}
-        return {kind: wet for kind, wet in wets.items() if wet is not None}
+        seen = [kind for kind in FREE if kind in looks]
+        wets = {kind: reader._wetnesses(kind, looks, expected) for kind in seen}
+        return {kind: told[0] for kind, told in wets.items() if told}
+
+    def wetness(self, looks: Looks, expected: Volumes) -> dict[KeyframeKind, tuple[float, ...]]:
+        """Mean wetness of a trajectory's free frames, 0 dry to 1, below each of the heights
+        :data:`~.usual.LEFT` of the full column; ``nan`` where nothing is known."""
+        told: dict[KeyframeKind, tuple[float, ...]] = {}
+        for kind in FREE:
+            seen = looks.get(kind)
+            wets = [] if seen is None else self._wetnesses(kind, looks, expected)
+            if wets and seen is not None:
+                column = 1.0 - self._scale.place(seen.tip, expected.get(KeyframeKind.TRANSIT, 0.0))
+                means = [wets[0].mean(1.0 - height * column, seen.lowest) for height in LEFT]
+                told[kind] = tuple(share if weight > 0 else math.nan for share, weight in means)
+        return told
 
     def place(self, tip: TipGeometry, volume_ul: float) -> float:
         """Where a column of this volume ends in this run's frames, u."""
@@ -173,8 +188,9 @@ class MeasuredColumns:
 
     def forget(self, kept: Sequence[Well]) -> None:
         """Keep what these wells teach, and nothing else."""
-        self._contrast = self._taught_by(kept)._contrast
-        self._usual = self._usual.anew()
+        taught = self._taught_by(kept)
+        self._contrast, self._deliveries = taught._contrast, taught._deliveries
+        self._usuals = {paired: usual.anew() for paired, usual in self._usuals.items()}
 
     def _taught_by(self, wells: Sequence[Well]) -> MeasuredColumns:
         reader = MeasuredColumns()
@@ -182,17 +198,24 @@ class MeasuredColumns:
         for looks, expected in wells:
             for kind in FREE:
                 seen, volume = looks.get(kind), expected.get(kind, 0.0)
-                if not isinstance(seen, Look) or not self._usual.comparable(seen.light):
+                if seen is None or not self._usual.comparable(seen.light):
                     continue
-                wet = None if volume else reader._wetness(seen)
-                if wet is None or not reader._holds_some(seen, wet):
-                    reader._take(seen, volume)
+                wets = [] if volume else reader._wetnesses(kind, looks, expected)
+                if not wets or not reader._holds_some(seen, wets[0]):
+                    reader._take(kind, looks, expected)
         return reader
 
-    def _take(self, seen: Look, volume: float) -> None:
-        top = self._scale.place(seen.tip, volume)
+    def _take(self, kind: KeyframeKind, looks: Looks, expected: Volumes) -> None:
+        seen = looks[kind]
+        top = self._scale.place(seen.tip, expected.get(kind, 0.0))
         # While the tip's inside is known to some per cent only, rows near the top are unsure.
-        self._contrast.learn(seen.profile, top, self._scale.margin(top))
+        margin = self._scale.margin(top)
+        self._contrast.learn(seen.profile, top, margin)
+        before = _loaded(kind, looks, expected)
+        if before is not None:
+            full = self._scale.place(seen.tip, expected[KeyframeKind.TRANSIT])
+            margin = self._scale.margin(full)
+            self._deliveries.learn_pair(before.profile, seen.profile, full, margin)
 
     def _learn_usual(self, seen: Look, wet: Wetness, volume: float) -> None:
         tip, end = seen.tip, seen.lowest
@@ -200,8 +223,7 @@ class MeasuredColumns:
         if volume > 0:
             self._fullest = max(self._fullest, volume)
             share, weight = wet.mean(top + 0.02, end)
-            gap, _, _ = wet.longest_gap(top + 0.05, min(end, seen.wide_down_to(_GAP_BORE_PX)))
-            self._usual.note_full(share if weight > 0 else None, gap, wet.misfit)
+            self._usuals[wet.paired].note_full(share if weight > 0 else None, wet.misfit)
             found = wet.column(ceiling(tip), end)
             reach = NEAR if self._scale.known else _REACH[0] + _REACH[1] * (1.0 - top)
             if abs(found - top) < reach and wet.power > 4 and wet.bracketed(found, NEAR):
@@ -210,14 +232,17 @@ class MeasuredColumns:
         heights = LEFT * (1.0 - self._scale.place(tip, self._fullest))
         told = [wet.mean(1.0 - height, end) for height in heights]
         if any(weight > 0 for _, weight in told):
-            self._usual.note_empty([share if weight > 0 else math.nan for share, weight in told])
+            self._usuals[wet.paired].note_empty(
+                [share if weight > 0 else math.nan for share, weight in told]
+            )
 
-    def _reading(self, seen: Look, expected_ul: float, most_ul: float) -> ColumnReading | None:
+    def _reading(
+        self, wet: Wetness, seen: Look, expected_ul: float, most_ul: float
+    ) -> ColumnReading | None:
         """Read one frame; ``most_ul``: no more than that can be in the tip, 0 if not known."""
-        wet = self._wetness(seen)
-        if wet is None or not self._usual.readable(wet, seen.light):
+        if not self._usuals[wet.paired].readable(wet, seen.light):
             return None
-        if not self._usual.fits(wet):
+        if not self._usuals[wet.paired].fits(wet):
             return None if expected_ul > 0 else _FIRST_VAGUE
         tip, end = seen.tip, seen.lowest
         place, highest = self._scale.place(tip, expected_ul), ceiling(tip)
@@ -228,7 +253,7 @@ class MeasuredColumns:
         full = expected_ul > 0
         top = self._scale.place(tip, max(expected_ul, most_ul))
         bore = seen.bore_px(min(top, end), end)
-        clear = 0.5 / self._usual.variance(wet, bore, full=full) >= _EVIDENCE
+        clear = 0.5 / self._usuals[wet.paired].variance(wet, bore, full=full) >= _EVIDENCE
         against = self._against(wet, found, place, seen)
         excess = against if found < place else 0.0
         if against < _EVIDENCE:
@@ -239,17 +264,15 @@ class MeasuredColumns:
         sigma = self._scale.sigma_ul(tip, found, max(volume, expected_ul))
         if not full and found == place:
             sigma = max(sigma, 0.5 * self._least_seen(wet, seen, top))
-        if most_ul > volume and found != place and not wet.known(top, found):
+        # Two frames at one place show an end by itself, where rows next above it are known.
+        upper = max(top, found - NEAR) if wet.paired else top
+        if most_ul > volume and found != place and not wet.known(upper, found):
             # It ends somewhere in rows that no other well showed: most likely where it was drawn.
             # That there is one is as sure as its known part.
             sigma *= most_ul / max(volume, 1e-6)
             volume, found = most_ul, top
-        gap, gap_sigma = self._gap(wet, found, seen) if volume > 0 and full else (0.0, 0.0)
-        tested = self._usual.tested(full=full)
-        return ColumnReading(
-            max(volume - gap, 0.0), sigma, gap, gap_sigma, 1.0 - found,
-            excess=excess, tested=tested,
-        )  # fmt: skip
+        tested = self._usuals[wet.paired].tested(full=full)
+        return ColumnReading(volume, sigma, 1.0 - found, False, excess, None, tested, wet.paired)
 
     def _least_seen(self, wet: Wetness, seen: Look, top: float) -> float:
         """Smallest column, of those up to ``top`` (u), that an empty tip's rows rule out, µL."""
@@ -257,7 +280,9 @@ class MeasuredColumns:
             upper = 1.0 - share * (1.0 - top)
             if upper < seen.lowest:
                 bore = seen.bore_px(upper, seen.lowest)
-                variance = self._usual.variance(wet, bore, full=False, height=float(share))
+                variance = self._usuals[wet.paired].variance(
+                    wet, bore, full=False, height=float(share)
+                )
                 if 0.5 / variance >= _EVIDENCE:
                     return self._scale.volume(seen.tip, upper)
         return self._scale.volume(seen.tip, top)
@@ -275,41 +300,32 @@ class MeasuredColumns:
         bore = seen.bore_px(upper, lower)
         fullest = max(1.0 - self._scale.place(seen.tip, self._fullest), _SHORTEST)
         height = (1.0 - upper) / fullest if lower >= end else None
-        usual = self._usual.variance(wet, bore, full=not too_much, height=height)
-        variance = (1.0 / weight + usual) * self._usual.strain(wet)
+        usual = self._usuals[wet.paired].variance(wet, bore, full=not too_much, height=height)
+        variance = 1.0 / weight + usual
         towards = share - 0.5 if too_much else 0.5 - share
         return max(towards / variance, 0.0)
 
-    def _gap(self, wet: Wetness, top: float, seen: Look) -> tuple[float, float]:
-        """Air in the column and its uncertainty, µL; nothing unless it stands out in this run."""
-        tip, end = seen.tip, min(seen.lowest, seen.wide_down_to(_GAP_BORE_PX))
-        strength, upper, lower = wet.longest_gap(top + 0.05, end)
-        limit = self._usual.gap_limit(wet)
-        share, _ = wet.mean(upper - 1e-6, lower + 1e-6)
-        if limit is None or strength < limit or share > _GAP_SHARE:
-            return 0.0, 0.0
-        air = self._scale.volume(tip, upper) - self._scale.volume(tip, lower)
-        return air, air * limit / strength / 8.0
+    def _wetnesses(self, kind: KeyframeKind, looks: Looks, expected: Volumes) -> list[Wetness]:
+        """How wet a frame's rows are, the surest first: after the dispense by what changed since
+        TRANSIT, where both stand at one place; then by what the run's tips look like."""
+        seen = looks[kind]
+        low, paired, before = ceiling(seen.tip) - 0.03, None, _loaded(kind, looks, expected)
+        if before is not None:
+            full = self._scale.place(seen.tip, expected[KeyframeKind.TRANSIT])
+            full = max(full + self._scale.margin(full), low)
+            paired = self._deliveries.read_pair(before.profile, seen.profile, full)
+        told = (paired, self._contrast.read(seen.profile, low))
+        return [wet for wet in told if wet is not None and wet.weight.any()]
 
-    def _pair(
-        self, looks: Mapping[KeyframeKind, object], expected: Mapping[KeyframeKind, float]
-    ) -> ColumnReading | None:
-        """What this trajectory shows by itself of a column left after its dispense."""
-        before, after = (looks.get(kind) for kind in FREE)
-        full = expected.get(KeyframeKind.TRANSIT, 0.0)
-        if not isinstance(before, Look) or not isinstance(after, Look) or full <= 0:
-            return None
-        if not alike(before.light, after.light) or expected.get(FREE[1], 0.0) > 0:
-            return None
-        tip = before.tip
-        highest = self._scale.place(tip, full) + NEAR
-        top = column_left(before.profile, after.profile, tip, highest, ceiling(tip))
-        if top is None:
-            return None
-        volume = self._scale.volume(tip, top)
-        sigma = self._scale.sigma_ul(tip, top, volume)
-        return ColumnReading(volume, sigma, top=1.0 - top)
 
-    def _wetness(self, seen: Look) -> Wetness | None:
-        wet = self._contrast.read(seen.profile, ceiling(seen.tip) - 0.03)
-        return wet if wet is not None and wet.weight.any() else None
+def _loaded(kind: KeyframeKind, looks: Looks, expected: Volumes) -> Look | None:
+    """TRANSIT's look, where ``kind`` is the emptied tip and can be compared with it row by row."""
+    before, after = (looks.get(kind) for kind in FREE)
+    drawn, kept = (expected.get(kind, 0.0) for kind in FREE)
+    if kind is not KeyframeKind.POST_DISPENSE or drawn <= 0 or kept > 0:
+        return None
+    if before is None or after is None:
+        return None
+    if before.axis is None or after.axis is None or not alike(before.light, after.light):
+        return None
+    return before if at_one_place(before.axis, after.axis) else None

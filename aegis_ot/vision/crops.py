@@ -6,11 +6,6 @@ The four canvases make one trajectory vector.
 
 from __future__ import annotations
 
-import functools
-import weakref
-from collections.abc import Callable
-from typing import Any, TypeVar
-
 import cv2
 import numpy as np
 from numpy.typing import NDArray
@@ -24,7 +19,6 @@ CANVAS = 48
 VECTOR_LENGTH = len(KeyframeKind) * CANVAS * CANVAS
 
 Array = NDArray[np.float32]
-T = TypeVar("T")
 
 
 def crop_grey(image: Image, detection: TipDetection | None, size: int = CANVAS) -> Array:
@@ -65,7 +59,7 @@ def trajectory_vector(sample: TrajectorySample) -> Array:
 
     Computed once per sample. A keyframe without a frame counts as one without a tip.
     """
-    return remember(sample, "vector", _vector)
+    return sample.once("vector", lambda: _vector(sample))
 
 
 def _vector(sample: TrajectorySample) -> Array:
@@ -78,23 +72,3 @@ def _vector(sample: TrajectorySample) -> Array:
         else:
             crops.append(crop_grey(frame, detection).ravel())
     return np.concatenate(crops)
-
-
-_memory: dict[tuple[int, str], tuple[weakref.ref[TrajectorySample], Any]] = {}
-
-
-def remember(sample: TrajectorySample, what: str, make: Callable[[TrajectorySample], T]) -> T:
-    """``make(sample)``, computed once for as long as ``sample`` lives.
-
-    Leave-one-plate-out fits sixteen models on the same trajectories: without this every frame
-    would be decoded and measured sixteen times.
-    """
-    key = (id(sample), what)
-    known = _memory.get(key)
-    if known is not None and known[0]() is sample:
-        return known[1]  # type: ignore[no-any-return]
-    value = make(sample)
-    # Bound now: samples may outlive this module's names when the interpreter ends.
-    forget = functools.partial(_memory.pop, key, None)
-    _memory[key] = (weakref.ref(sample, lambda _: forget()), value)
-    return value

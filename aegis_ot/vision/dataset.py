@@ -212,11 +212,11 @@ def load_dataset(folder: str | Path) -> Dataset:
     problems = Problems()
     records = read_manifest(root, problems)
     boxes, warnings = read_boxes(root, records, problems)
-    positions = read_positions(root, records, problems)
+    positions, odd = read_positions(root, records, problems)
     meta = _read_meta(root, problems)
     if problems:
         raise DatasetError(problems.text(root))
-    warnings += _strangers(meta, records)
+    warnings += [*odd, *_strangers(meta, records)]
     return Dataset(root, tuple(records), boxes, meta, tuple(warnings), positions)
 
 

@@ -11,7 +11,7 @@ from pathlib import Path, PurePosixPath
 import cv2
 import numpy as np
 
-from ..vocabulary import KeyframeKind
+from ..vocabulary import FAILURES, KeyframeKind
 from .tables import Note, Problems, number, read_table
 from .tips import pipette_class, tip_for
 from .types import Position
@@ -37,12 +37,8 @@ FAILURE_TYPES = (
     "partial_25",
     "partial_50",
     "partial_75",
-    "partial_single",
     "partial_accumulated",
-    "no_dispense",
-    "no_aspirate",
-    "air_bubble",
-    "no_tip",
+    *(known.label for known in FAILURES.values() if known.label),
 )
 _WELL = re.compile(r"[A-Z]{1,2}[1-9][0-9]?")
 _PIPETTE = re.compile(r"p[1-9][0-9]*|flex_[0-9]{1,2}channel_[1-9][0-9]*|p[1-9][0-9]*_[a-z0-9_]+")
@@ -185,18 +181,21 @@ def read_boxes(
 
 def read_positions(
     root: Path, records: Sequence[Record], problems: Problems
-) -> dict[str, dict[KeyframeKind, Position]]:
-    """Where the tip's end was, mm on the deck, by trajectory; empty without ``positions.csv``."""
+) -> tuple[dict[str, dict[KeyframeKind, Position]], list[str]]:
+    """Where the tip's end was, mm on the deck, by trajectory, and what is odd about it without
+    being wrong; empty without ``positions.csv``."""
     path = root / "positions.csv"
     positions: dict[str, dict[KeyframeKind, Position]] = {}
     if not path.exists():
-        return positions
+        return positions, []
+    strangers = 0
     known = {record.id for record in records}
     for line, row in read_table(path, POSITION_COLUMNS, problems):
         note = Note(problems, "positions.csv", line)
         name, kind = row["trajectory_id"], row["keyframe"]
         if name not in known:
-            continue  # of a trajectory that was taken out of the set
+            strangers += 1  # of a trajectory that was taken out of the set, or mistyped
+            continue
         if kind not in FRAME_COLUMNS:
             note("keyframe", f"{kind!r} must be one of {', '.join(FRAME_COLUMNS)}")
             continue
@@ -206,7 +205,8 @@ def read_positions(
             note("keyframe", f"{kind!r} of {name!r} stands in an earlier row already")
         if x is not None and y is not None and z is not None:
             of_well[KeyframeKind(kind)] = (x, y, z)
-    return positions
+    odd = f"positions.csv: {strangers} rows name trajectories that manifest.csv does not have"
+    return positions, [odd] if strangers else []
 
 
 def _check_label(row: Mapping[str, str], note: Note) -> None:

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from ..vocabulary import KeyframeKind
 from .column import ceiling
 from .column.contrast import change_between
-from .column_look import Look
+from .column_look import Look, Looks
 from .drawn import LONGEST_END, PLAIN, ROW_LEAST_PX, ROWS_LEAST, across
 from .tip_scale import TipScale
 from .usual import alike
@@ -107,9 +107,7 @@ class Delivery:
         return self.shown in (Shown.NOTHING, Shown.FAINT)
 
 
-def delivery_of(
-    looks: Mapping[KeyframeKind, object], expected: Mapping[KeyframeKind, float]
-) -> Delivery:
+def delivery_of(looks: Looks, expected: Mapping[KeyframeKind, float]) -> Delivery:
     """Compare TRANSIT with POST_DISPENSE.
 
     Args:
@@ -120,7 +118,7 @@ def delivery_of(
     drawn = expected.get(KeyframeKind.TRANSIT, 0.0)
     kept = expected.get(KeyframeKind.POST_DISPENSE, 0.0)
     unknown = Delivery(Shown.UNKNOWN)
-    if not isinstance(before, Look) or not isinstance(after, Look) or drawn <= kept:
+    if before is None or after is None or drawn <= kept:
         return unknown
     if not alike(before.light, after.light):
         return replace(unknown, spoiled=True)

@@ -7,19 +7,18 @@ from dataclasses import asdict
 from typing import Any
 
 from ..vocabulary import KeyframeKind, Outcome
+from .calibration_group import CalibrationGroup, OpenTrajectory
 from .cascade import Triage
-from .column_reader import MeasuredColumns
 from .delivery import Delivery, Shown
-from .gates import Case, GateDecision
+from .gates import GateDecision, GateInput
 from .leftover import Leftover
-from .stream import OpenTrajectory, Stream
 from .tip_scale import TipScale
 
 
 def evidence_of(
     key: tuple[str, float, str],
-    stream: Stream,
-    case: Case,
+    stream: CalibrationGroup,
+    case: GateInput,
     seen: OpenTrajectory,
     triage: Triage,
     decision: GateDecision,
@@ -61,43 +60,47 @@ def evidence_of(
     }
 
 
-def _emptied(case: Case) -> Delivery | None:
+def _emptied(case: GateInput) -> Delivery | None:
     """What the frames show of the delivery, where the liquid was seen to leave the tip."""
     seen = case.delivery
     return seen if seen is not None and seen.shown is Shown.EMPTIED else None
 
 
-def _readings(case: Case) -> Iterator[tuple[str, dict[str, float]]]:
+def _readings(case: GateInput) -> Iterator[tuple[str, dict[str, float]]]:
     """Volumes that were seen: one that is only what was expected is no measurement."""
     for kind, reading in case.readings.items():
         told = reading.seen or reading
+        air = _air(case) if kind is KeyframeKind.TRANSIT else 0.0
         expected = case.sample.expected_ul.get(kind, 0.0)
         if reading.vague or (told is reading and told.volume_ul == expected > 0):
             continue
         yield (
             kind.value,
             {
-                "volume": round(told.volume_ul, 2),
+                "volume": round(max(told.volume_ul - air, 0.0), 2),
                 "uncertainty": round(told.sigma_ul, 2),
-                "air": round(reading.gap_ul, 2),
+                "air": round(air, 2),
                 "top": round(told.top, 4),
             },
         )
 
 
-def _drawn(case: Case) -> list[float] | None:
+def _drawn(case: GateInput) -> list[float] | None:
     """What was seen to leave the tip, and its standard uncertainty, µL."""
     full = case.readings.get(KeyframeKind.TRANSIT)
     if full is None or full.seen is None:
         return None
-    return [round(full.seen.volume_ul, 2), round(full.seen.sigma_ul, 2)]
+    return [round(max(full.seen.volume_ul - _air(case), 0.0), 2), round(full.seen.sigma_ul, 2)]
 
 
-def _expected_tops(stream: Stream, case: Case) -> Iterator[tuple[str, float]]:
+def _air(case: GateInput) -> float:
+    """What stands as air in the full column, µL."""
+    return 0.0 if case.delivery is None else case.delivery.gap_ul or 0.0
+
+
+def _expected_tops(stream: CalibrationGroup, case: GateInput) -> Iterator[tuple[str, float]]:
     """Where the columns should end in this run's frames, as far as anything has shown it."""
     reader, tip = stream.reader, case.sample.tip
-    if not isinstance(reader, MeasuredColumns):
-        return
     for kind, volume in case.sample.expected_ul.items():
         top = reader.place(tip, volume)
         learned = tip.name in stream.scorer.height_factors or top != TipScale().place(tip, volume)

@@ -14,7 +14,7 @@ import numpy as np
 
 from ..vocabulary import Keyframe
 from .delivery import Delivery, Shown
-from .gates import Case
+from .gates import GateInput
 
 Liquid = tuple[str, float, str]
 """Mount and pipette, working volume of the tip, µL, and reagent: wells that are compared."""
@@ -102,7 +102,7 @@ class FirstWells:
             return delivery
         return replace(delivery, shown=Shown.FAINT)
 
-    def learn(self, liquid: Liquid, case: Case) -> None:
+    def learn(self, liquid: Liquid, case: GateInput) -> None:
         """A well was judged normal."""
         if case.delivery is not None:
             self.note(liquid, case.delivery)

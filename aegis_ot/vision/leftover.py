@@ -9,11 +9,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
-from ..vocabulary import FailureType, Gate, Keyframe, KeyframeKind, Outcome
+from ..vocabulary import FAILURES, FailureType, Gate, Keyframe, KeyframeKind, Outcome
 from .delivery import Delivery, Shown
-from .gates import Case, GateDecision
+from .gates import GateDecision, GateInput
 
-_STAYED = (FailureType.PARTIAL_DISPENSE, FailureType.NO_DISPENSE)
 _UNSURE = 0.25
 """How well a volume that was left is known, as a fraction."""
 
@@ -58,7 +57,7 @@ class Leftovers:
         """Whether this tip seemed to hold liquid before, too little to measure."""
         return self._doubted.get(keyframe.mount) == keyframe.tip
 
-    def note(self, keyframe: Keyframe, case: Case, decision: GateDecision) -> None:
+    def note(self, keyframe: Keyframe, case: GateInput, decision: GateDecision) -> None:
         """A well was judged: if liquid stayed in the tip, it is known from now on."""
         if decision.outcome is Outcome.PASS:
             return
@@ -68,7 +67,7 @@ class Leftovers:
         volume = None
         if decision.measured_ul is not None and decision.expected_ul is not None:
             volume = decision.measured_ul - decision.expected_ul
-        elif decision.failure in _STAYED:
+        elif decision.failure is not None and FAILURES[decision.failure].stays:
             volume = case.sample.volume_ul
         if decision.failure is FailureType.NO_DISPENSE and before is not None:
             # A column that reaches higher than it was ever drawn is read too short.
@@ -82,7 +81,7 @@ class Leftovers:
             )
 
     def explaining(
-        self, keyframe: Keyframe, case: Case, delivery: Callable[[float], Delivery]
+        self, keyframe: Keyframe, case: GateInput, delivery: Callable[[float], Delivery]
     ) -> Leftover | None:
         """The leftover of this tip, if a well that did not pass shows no more than that.
 
@@ -106,7 +105,7 @@ class Leftovers:
         self._of[mount] = left
 
 
-def explains(left: Leftover, case: Case, delivery: Delivery) -> bool:
+def explains(left: Leftover, case: GateInput, delivery: Delivery) -> bool:
     """Whether a well shows no more than the leftover.
 
     Args:

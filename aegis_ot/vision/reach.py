@@ -115,6 +115,28 @@ def normals_in(model: ModelFile) -> int:
     return sum(int(used.get("normals") or 0) for used in recordings_of(model))
 
 
+def limits_in(model: ModelFile) -> list[str]:
+    """What the lab's own limits did to the wells that made them, a sentence for each liquid."""
+    from scipy.stats import beta
+
+    said = []
+    for told in model.data.get("limits") or ():
+        head = f"{told['tip']}, {told['liquid'] or 'liquid of unknown name'}: limits of your own "
+        if not told["used"]:
+            said.append(f"{head}would catch no more failures than chance does, and are left out.")
+            continue
+        flagged, normals = told["flagged"], told["normals"]
+        most = beta.ppf(0.975, flagged + 1, normals - flagged) if flagged < normals else 1.0
+        said.append(
+            f"{head}catch {told['caught']} of {counted(told['failures'], 'planted failure')} "
+            f"({told['caught_before']} without them) and flag {flagged} of "
+            f"{counted(normals, 'normal well')} ({told['flagged_before']} without), each judged by "
+            "limits of the others. So few wells prove no more than that at most "
+            f"{100 * float(most):.0f} in 100 normal wells are flagged (95 %)."
+        )
+    return said
+
+
 def shortcomings(model: ModelFile) -> list[str]:
     """What the recordings that made a model were too few for, a sentence each."""
     if not recordings_of(model):
@@ -126,7 +148,7 @@ def shortcomings(model: ModelFile) -> list[str]:
             f"Few: {counted(normals, 'normal well')} cannot tell one in twenty from the rest. "
             f"Record {ENOUGH} or more."
         )
-    if not smallest_in(model):
+    if not smallest_in(model) and not model.data.get("limits"):
         said.append(
             "What it would catch is not known: that takes a scorer that gives p-values (ensemble), "
             "and wells of two runs or plates."

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ..vocabulary import KeyframeKind
 from .crops import trajectory_vector
-from .scorers import Calibrating, signs_of
+from .scorers import Calibrating, GivesPValues, WorldModel
 from .scorers.pca import PcaScorer
 from .tips import TIPS, tip_for
 from .types import FREE, Scorer, TrajectorySample
@@ -56,13 +56,13 @@ class RunScorer:
     @property
     def gives_p_values(self) -> bool:
         """Whether a score is ``-log p`` of a normal well, in nats."""
-        return hasattr(self._scorer, "p_value")
+        return isinstance(self._scorer, GivesPValues)
 
     @property
     def height_factors(self) -> Mapping[str, float]:
         """How high columns stood in the runs it was fitted on, over what the geometry says."""
-        models = getattr(getattr(self._scorer, "column", self._scorer), "models", {})
-        return {_tip_of(name): model.height_scale for name, model in models.items()}
+        known = self._scorer.height_factors if isinstance(self._scorer, WorldModel) else {}
+        return {_tip_of(name): factor for name, factor in known.items()}
 
     @property
     def needed(self) -> tuple[KeyframeKind, ...]:
@@ -86,20 +86,18 @@ class RunScorer:
         missing = [kind for kind in self.needed if sample.detections.get(kind) is None]
         if not missing:
             return self._scorer.score(sample)
-        partial = getattr(self._scorer, "score_of_seen", None)
-        if partial is None or not set(missing) <= set(excused):
+        if not isinstance(self._scorer, WorldModel) or not set(missing) <= set(excused):
             return None
-        return float(partial(sample))
+        return self._scorer.score_of_seen(sample)
 
     def signs(self, sample: TrajectorySample) -> Mapping[str, float]:
         """What a score is made of, by sign, nats; empty if the scorer cannot say."""
-        return {} if self._scorer is None else signs_of(self._scorer, sample)
+        return self._scorer.signs(sample) if isinstance(self._scorer, WorldModel) else {}
 
     def look_ahead(self, sample: TrajectorySample) -> None:
         """Do what can be done before the last frame, while the robot moves."""
-        ahead = getattr(self._scorer, "look_ahead", None)
-        if ahead is not None:
-            ahead(sample)
+        if isinstance(self._scorer, WorldModel):
+            self._scorer.look_ahead(sample)
 
     def accept(self, sample: TrajectorySample) -> None:
         """A well that was scored and judged normal; what was read in its frames is kept."""
@@ -115,8 +113,7 @@ class RunScorer:
 
     @property
     def _adapts(self) -> Calibrating | None:
-        scorer: object = self._scorer
-        return scorer if isinstance(scorer, Calibrating) else None
+        return self._scorer if isinstance(self._scorer, Calibrating) else None
 
     def learn(self, sample: TrajectorySample) -> Iterator[tuple[float, float]]:
         """Learn from one of the first wells; the last one yields scores and volumes of all."""

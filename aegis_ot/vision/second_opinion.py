@@ -13,7 +13,7 @@ import zlib
 from dataclasses import dataclass, replace
 
 from ..vocabulary import Outcome, Route
-from .gates import Case, GateDecision, Gates, in_sentences
+from .gates import GateDecision, GateInput, Gates, in_sentences
 
 
 @dataclass(frozen=True)
@@ -44,7 +44,7 @@ class SecondOpinion:
         self._spot_check = spot_check or SpotCheck()
 
     def on(
-        self, case: Case, passed: GateDecision, first_wells: int, limit: float | None
+        self, case: GateInput, passed: GateDecision, first_wells: int, limit: float | None
     ) -> GateDecision:
         """What comes of a well that passed.
 
@@ -77,13 +77,13 @@ class SecondOpinion:
             expected_ul=passed.expected_ul,
         )
 
-    def _near(self, case: Case, limit: float | None) -> bool:
+    def _near(self, case: GateInput, limit: float | None) -> bool:
         wanted = self._spot_check
         if wanted.share <= 0 or case.route is Route.CALIBRATION:
             return False
         return limit is not None and case.score is not None and case.score > wanted.near * limit
 
-    def _drawn(self, case: Case, first_wells: int) -> bool:
+    def _drawn(self, case: GateInput, first_wells: int) -> bool:
         wanted = self._spot_check
         if case.route is Route.CALIBRATION:
             return wanted.share > 0 and first_wells <= wanted.first

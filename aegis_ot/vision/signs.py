@@ -28,6 +28,7 @@ SIGNS: Mapping[str, Sign] = {
     sign.name: sign
     for sign in (
         Sign("retained", "a column that is left after the dispense", DELIVERED),
+        Sign("undelivered", "a tip that the dispense did not change", DELIVERED[-1:]),
         Sign("gap_lit", "a break in the glowing column", (KeyframeKind.ASPIRATE,)),
         Sign("gap_aspirate", "a break in the column", (KeyframeKind.ASPIRATE,)),
         Sign("gap_transit", "a break in the column", (KeyframeKind.TRANSIT,)),

@@ -7,9 +7,9 @@ right, y down, and are floats: the centre of the first pixel is ``(0.5, 0.5)``.
 
 from __future__ import annotations
 
-from collections.abc import Container, Mapping, Sequence
+from collections.abc import Callable, Container, Hashable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Protocol, runtime_checkable
+from typing import Any, Protocol, TypeVar, cast, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +18,7 @@ from ..vocabulary import KeyframeKind
 from .tips import TipGeometry, is_flex, pipette_class, tip_for
 
 Image = NDArray[np.uint8]
+T = TypeVar("T")
 Position = tuple[float, float, float]
 """A place on the deck, mm: x to the right, y away from the front, z up."""
 
@@ -58,6 +59,14 @@ class Detector(Protocol):
     def detect(self, image: Image) -> TipDetection | None: ...
 
 
+@runtime_checkable
+class GuessingDetector(Detector, Protocol):
+    """A detector that also says what it is not sure of."""
+
+    def best_guess(self, image: Image) -> TipDetection | None:
+        """The likeliest tip in a frame, however unlikely; its confidence says how likely."""
+
+
 @dataclass(frozen=True)
 class End:
     """A place in a frame that looks like one end of a tip: x and y, px, and how much, 0 to 1."""
@@ -94,6 +103,27 @@ class RowDetector(Protocol):
 
     def ends_of_each(self, image: Image, axes: Sequence[Axis]) -> list[Ends]:
         """What looks like an end in a close-up of each place where a tip may hang."""
+
+
+class Frames(dict[KeyframeKind, Image]):
+    """The frames of one trajectory, and what was measured in each: with them it goes."""
+
+    def __init__(self, frames: Mapping[KeyframeKind, Image] | None = None) -> None:
+        super().__init__(frames or {})
+        self.measured: dict[Hashable, Any] = {}
+
+    def clear(self) -> None:
+        """The frames are not needed any more."""
+        super().clear()
+        self.measured.clear()
+
+
+@runtime_checkable
+class PairedDetector(RowDetector, Protocol):
+    """One that has another detector beside it, which sees some tips of a row that it does not."""
+
+    @property
+    def of_rows(self) -> RowDetector | None: ...
 
 
 @dataclass(frozen=True)
@@ -133,6 +163,14 @@ class TrajectorySample:
     capacity_ul: float | None = None
     tip_used: str = ""
     positions: Mapping[KeyframeKind, Position] = field(default_factory=dict)
+    known: dict[str, Any] = field(default_factory=dict, init=False, repr=False, compare=False)
+    """What was worked out of it before; see :meth:`once`."""
+
+    def once(self, what: str, make: Callable[[], T]) -> T:
+        """``make()``, computed once for this sample: many models are fitted on the same ones."""
+        if what not in self.known:
+            self.known[what] = make()
+        return cast(T, self.known[what])
 
     @property
     def tip(self) -> TipGeometry:

@@ -29,6 +29,9 @@ _PRIOR = (1.5, 0.1, 0.35)
 of the liquid's power, within the other two. What moves a whole frame (what is behind the tip,
 the lamp, a film on the wall) is about the same for all liquids, so a plain one stands out more."""
 
+_PAIRED_PRIOR = (0.75, 0.1, 0.35)
+"""The same of two frames at one place: what moves a whole frame moves the other one, too."""
+
 _AXIS_PX = 0.9
 """How far two frames' tips are laid beside each other instead of upon each other, px: over the
 bore's width, that share of a row is seen of the wall instead. With it, one normal well read by
@@ -36,18 +39,6 @@ another of its plate strays by 1.0 standard deviations (root mean square) on ren
 simulated plates, p20 (bore 2 px) as p1000 (6 px); without it, by 2.3 and 1.4 to 1.6."""
 
 _LEAST_SD = 0.06
-
-_GAP_LEAST = 2.5
-_GAP_FACTOR = 2.0
-_GAP_FIRST = 8.0
-_GAP_FAINT = 25.0
-"""A break counts from this strength, from this multiple of the strongest that this run's normal
-columns showed, and while they are few from more."""
-
-_PLAIN = 64.0
-"""Power of a liquid that shows plainly. In fainter ones (water, a p20's dye) none of 55 breaks was
-told on simulated frames of development seeds, and glints were taken for some: none is looked for.
-Dyes in larger tips have 79 at least."""
 
 _IN_ANY_LIGHT = 16.0
 """Power of a liquid that is seen in a frame 1.6 to 3 times brighter or darker than the run's too:
@@ -73,7 +64,6 @@ class Usual:
         self._lights: list[float] = []
         self._dry: list[tuple[float, ...]] = []
         self._wet: list[float] = []
-        self._gaps: list[float] = []
         self._misfits: list[float] = []
 
     def anew(self) -> Usual:
@@ -86,12 +76,11 @@ class Usual:
         """Median brightness of a normal well's frame."""
         _keep(self._lights, light)
 
-    def note_full(self, share: float | None, gap: float, misfit: float) -> None:
-        """Mean wetness of a column that was full (``None``: not told), and its strongest break."""
+    def note_full(self, share: float | None, misfit: float) -> None:
+        """Mean wetness of a column that was full (``None``: not told), and how its rows fit."""
         if share is not None:
             _keep(self._wet, share - 1.0)
         _keep(self._misfits, misfit)
-        _keep(self._gaps, gap)
 
     def note_empty(self, shares: Sequence[float]) -> None:
         """Mean wetness of an empty tip over columns of the heights :data:`LEFT`, ``nan``: not told.
@@ -112,38 +101,19 @@ class Usual:
         ``height``: of the column that they would be, as a share of the full one's; ``None``: they
         do not reach down to the orifice.
         """
-        scale, low, high = _PRIOR
+        scale, low, high = _PAIRED_PRIOR if wet.paired else _PRIOR
         prior = float(np.clip(scale / math.sqrt(max(wet.power, 1e-3)), low, high)) ** 2
-        prior += (_AXIS_PX / max(bore_px, 0.5)) ** 2
+        if not wet.paired:
+            prior += (_AXIS_PX / max(bore_px, 0.5)) ** 2
         known = self._wet if full else self._left(height)
         total = _PRIOR_WEIGHT * prior + float(np.sum(np.square(known)))
         return max(total / (_PRIOR_WEIGHT + len(known)), _LEAST_SD**2)
-
-    def strain(self, wet: Wetness) -> float:
-        """How much worse than usual a frame's rows fit any tip, empty or filled, at least 1.
-
-        A tip that was laid a few px beside its place strays by more than the run's others did. A
-        plain liquid is seen all the same, and what is left of it looks like no row of the run.
-        """
-        if wet.power >= _PLAIN:
-            return 1.0
-        usual = float(np.median(self._misfits)) if len(self._misfits) >= ENOUGH else 1.0
-        return max(wet.misfit / max(usual, 1e-3), 1.0)
 
     def _left(self, height: float | None) -> list[float]:
         if height is None:
             return [max(0.0, *filter(math.isfinite, shares)) for shares in self._dry]
         at = int(np.argmin(np.abs(LEFT - height)))
         return [max(shares[at], 0.0) for shares in self._dry if math.isfinite(shares[at])]
-
-    def gap_limit(self, wet: Wetness) -> float | None:
-        """Strength from which a break is none of the usual ones; ``None``: none can be told."""
-        known = self._gaps
-        if len(known) < ENOUGH or wet.power < _PLAIN:
-            return None
-        limit = max(_GAP_LEAST, _GAP_FACTOR * max(known) + 1.0)
-        # A liquid that shows faintly is full of what looks like gaps.
-        return (limit + _GAP_FIRST / len(known)) * (1.0 + _GAP_FAINT / max(wet.power, 1.0))
 
     def fits(self, wet: Wetness) -> bool:
         """Whether a frame's rows look like tips, empty or filled, of this run."""

@@ -10,8 +10,16 @@ from ..lazy import door
 
 if TYPE_CHECKING:
     from .addresses import without_secrets
-    from .channels import is_row, named_wells, unobserved, with_places
-    from .findings import Finding, Remark, Severity, Site, Undecided, VerdictWord
+    from .channels import (
+        in_few_words,
+        is_row,
+        named_wells,
+        unobserved,
+        wells_with_places,
+        with_places,
+    )
+    from .failures import FAILURES, FailureType
+    from .findings import NOT_AS_REHEARSED, Finding, Remark, Severity, Site, Undecided, VerdictWord
     from .opinions import (
         Citation,
         DeckItem,
@@ -35,7 +43,6 @@ if TYPE_CHECKING:
     from .trajectories import (
         ChannelOutcome,
         ChannelVerdict,
-        FailureType,
         Gate,
         Keyframe,
         KeyframeKind,
@@ -49,49 +56,23 @@ if TYPE_CHECKING:
 __getattr__ = door(
     __name__,
     {
-        "ChannelOutcome": "trajectories",
-        "ChannelVerdict": "trajectories",
-        "Citation": "opinions",
-        "DeckItem": "opinions",
-        "Dossier": "opinions",
-        "FailureType": "trajectories",
-        "Finding": "findings",
-        "Gate": "trajectories",
-        "Keyframe": "trajectories",
-        "KeyframeKind": "trajectories",
-        "Opinion": "opinions",
-        "Outcome": "trajectories",
-        "Remark": "findings",
-        "RoleLine": "opinions",
-        "RoleProposal": "opinions",
-        "Route": "trajectories",
-        "RuleAnswer": "opinions",
-        "RuleBrief": "opinions",
-        "Severity": "findings",
-        "Site": "findings",
-        "Undecided": "findings",
-        "Verdict": "trajectories",
-        "VerdictWord": "findings",
-        "WellRef": "wells",
-        "counted": "sentences",
-        "nearest": "sentences",
-        "csv_cell": "sentences",
-        "from_csv_cell": "sentences",
-        "from_json": "wire",
-        "is_known": "opinions",
-        "is_row": "channels",
-        "named_wells": "channels",
-        "no_commands": "sentences",
-        "one_line": "sentences",
-        "printable": "sentences",
-        "to_json": "wire",
-        "unobserved": "channels",
-        "with_places": "channels",
-        "without_secrets": "addresses",
+        "addresses": "without_secrets",
+        "channels": "in_few_words is_row named_wells unobserved wells_with_places with_places",
+        "failures": "FAILURES FailureType",
+        "findings": "NOT_AS_REHEARSED Finding Remark Severity Site Undecided VerdictWord",
+        "opinions": "Citation DeckItem Dossier Opinion RoleLine RoleProposal RuleAnswer RuleBrief "
+        "is_known",
+        "sentences": "counted nearest csv_cell from_csv_cell no_commands one_line printable",
+        "trajectories": "ChannelOutcome ChannelVerdict Gate Keyframe KeyframeKind Outcome Route "
+        "Verdict",
+        "wells": "WellRef",
+        "wire": "from_json to_json",
     },
 )
 
 __all__ = [
+    "FAILURES",
+    "NOT_AS_REHEARSED",
     "ChannelOutcome",
     "ChannelVerdict",
     "Citation",
@@ -120,6 +101,7 @@ __all__ = [
     "csv_cell",
     "from_csv_cell",
     "from_json",
+    "in_few_words",
     "is_known",
     "is_row",
     "named_wells",
@@ -129,6 +111,7 @@ __all__ = [
     "printable",
     "to_json",
     "unobserved",
+    "wells_with_places",
     "with_places",
     "without_secrets",
 ]

@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterable, Sequence
 
 from .trajectories import ChannelOutcome, ChannelVerdict, Verdict
+from .wells import WellRef
 
 
 def is_row(nozzles: Sequence[str]) -> bool:
@@ -24,9 +25,27 @@ def is_row(nozzles: Sequence[str]) -> bool:
 
 def named_wells(channels: Iterable[ChannelVerdict]) -> str:
     """Their wells in few words: ``"A3 to E3, G3"``."""
-    names = list(dict.fromkeys(channel.name for channel in channels))
+    return in_few_words(channel.name for channel in channels)
+
+
+def with_places(channels: Sequence[ChannelVerdict]) -> str:
+    """The same with where the first of them is: ``"A3 to E3 of plate (slot 2)"``."""
+    return named_wells(channels) + _place(next((c.well for c in channels if c.well), None))
+
+
+def wells_with_places(wells: Sequence[WellRef]) -> str:
+    """``"A2 to H2 of plate (slot 4)"``; ``"4:A2 to H2"`` of labware without a name."""
+    first = next(iter(wells), None)
+    if first is None:
+        return ""
+    words = in_few_words(well.name for well in wells)
+    return words + _place(first) if first.label else words.replace(first.name, first.address, 1)
+
+
+def in_few_words(names: Iterable[str]) -> str:
+    """Names of wells, those that stand one below the other as a range: ``"A3 to E3, G3"``."""
     runs: list[list[str]] = []
-    for name in names:
+    for name in dict.fromkeys(names):
         if runs and _follows(runs[-1][-1], name):
             runs[-1].append(name)
         else:
@@ -34,11 +53,10 @@ def named_wells(channels: Iterable[ChannelVerdict]) -> str:
     return ", ".join(f"{run[0]} to {run[-1]}" if len(run) > 2 else ", ".join(run) for run in runs)
 
 
-def with_places(channels: Sequence[ChannelVerdict]) -> str:
-    """The same with where the first of them is: ``"A3 to E3 of plate (slot 2)"``."""
-    named, first = named_wells(channels), next((c.well for c in channels if c.well), None)
-    place = "" if first is None else str(first).removeprefix(first.name)
-    return named + (place if first is not None and place != str(first) else "")
+def _place(first: WellRef | None) -> str:
+    if first is None:
+        return ""
+    return str(first).removeprefix(first.name) if first.label else ""
 
 
 def unobserved(verdicts: Iterable[Verdict]) -> tuple[ChannelVerdict, ...]:

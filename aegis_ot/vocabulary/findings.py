@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import Enum
 
 from .wells import WellRef
+
+NOT_AS_REHEARSED = "not as rehearsed"
+"""In a verdict's place for a run that did otherwise than its rehearsal."""
 
 
 class Severity(str, Enum):
@@ -32,11 +35,14 @@ class Site:
         line: 1-based line in the protocol file, ``None`` where none is known.
         well: The well concerned, if any.
         action: What was done there, in plain words: ``"drew template"``.
+        place: Which record of the rehearsal's log it was, from 1, where that is known: a line in a
+            loop is run many times.
     """
 
     line: int | None
     well: WellRef | None = None
     action: str = ""
+    place: int | None = field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True)

@@ -16,6 +16,11 @@ from .findings import Finding, Severity, Undecided
 from .wells import WellRef
 from .wire import to_json
 
+MODEL_FORMS = (
+    "anthropic:MODEL, openai:MODEL, openai:MODEL@URL, replay:FOLDER, scripted:FILE, export:FILE"
+)
+"""How a model is named, for people."""
+
 
 @dataclass(frozen=True)
 class DeckItem:
@@ -113,7 +118,8 @@ class RoleProposal:
     Attributes:
         role: Name of a role: ``"ntc"``.
         wells: Places: ``"4:H12"``, ``"4:A1-H1"``.
-        levels: Concentrations or doses as they are written: one for all wells, or one each.
+        levels: Concentrations or doses as they are written, with their unit: one for all wells, one
+            for each of their columns, or one for each well.
         citations: What says so.
     """
 
@@ -125,7 +131,9 @@ class RoleProposal:
 
 @dataclass(frozen=True)
 class RuleAnswer:
-    """The model's answer to an open question: ``holds``, ``violated`` or ``cannot_tell``."""
+    """The model's answer to an open question: ``holds``, ``violated``, ``cannot_tell``, or
+    ``not_applicable`` where the protocol does nothing that the rule speaks of.
+    """
 
     rule: str
     answer: str

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import Enum
+from typing import Final, NamedTuple
 
+from .failures import FailureType
 from .wells import WellRef
 
 
@@ -37,23 +39,49 @@ class Route(str, Enum):
 
 
 class Gate(str, Enum):
-    """Who confirmed or rejected a flagged well."""
+    """Who confirmed or rejected a flagged well. What each is stands in :data:`GATE_TRAITS`."""
 
     NONE = "none"
     VOLUMETRIC = "volumetric"
     VLM = "vlm"
     OPERATOR = "operator"
 
+    @property
+    def traits(self) -> GateTraits:
+        """What a gate of this kind is."""
+        return GATE_TRAITS[self]
 
-class FailureType(str, Enum):
-    """What went wrong physically, as far as a verdict can name it."""
 
-    PARTIAL_DISPENSE = "partial_dispense"
-    NO_DISPENSE = "no_dispense"
-    NO_ASPIRATE = "no_aspirate"
-    AIR_BUBBLE = "air_bubble"
-    NO_TIP = "no_tip"
-    OTHER = "other"
+class GateTraits(NamedTuple):
+    """What is to be known of a gate by whoever does not ask it.
+
+    Attributes:
+        does: What it did, in a sentence for a report.
+        may_be_asked_for: Whether the settings may name it.
+        measures: Whether its decision rests on a measured volume.
+        is_model: Whether a model looked at the frames.
+        is_person: Whether a person decided.
+    """
+
+    does: str
+    may_be_asked_for: bool = False
+    measures: bool = False
+    is_model: bool = False
+    is_person: bool = False
+
+
+GATE_TRAITS: Final = {
+    Gate.NONE: GateTraits(""),
+    Gate.VOLUMETRIC: GateTraits(
+        "The liquid column was measured against the volume that was drawn.",
+        may_be_asked_for=True,
+        measures=True,
+    ),
+    Gate.VLM: GateTraits(
+        "A vision model looked at the frames.", may_be_asked_for=True, is_model=True
+    ),
+    Gate.OPERATOR: GateTraits("A person decided.", is_person=True),
+}
 
 
 @dataclass(frozen=True)
@@ -193,7 +221,7 @@ class Verdict:
     @property
     def unobserved(self) -> bool:
         """Whether nobody saw any of the tips: then a pass says only that nothing holds."""
-        if self.outcome is not Outcome.PASS or self.gate is Gate.OPERATOR:
+        if self.outcome is not Outcome.PASS or self.gate.traits.is_person:
             return False
         unseen = [one.outcome is ChannelOutcome.UNOBSERVED for one in self.channels]
         return bool(unseen) and all(unseen)

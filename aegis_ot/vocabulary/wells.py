@@ -26,6 +26,17 @@ class WellRef:
     label: str = field(default="", compare=False)
     slot: str = field(default="", compare=False)
 
+    def __post_init__(self) -> None:
+        # A reading of a long run looks wells up some 100,000 times.
+        object.__setattr__(self, "_hash", hash((self.labware, self.name)))
+
+    def __hash__(self) -> int:
+        return self._hash  # type: ignore[attr-defined, no-any-return]
+
+    def __reduce__(self) -> tuple[type, tuple[str, ...]]:
+        # Another process hashes texts in another way.
+        return WellRef, (self.labware, self.name, self.label, self.slot)
+
     @property
     def address(self) -> str:
         """Short form for reports and benchmark labels: ``slot:well``, ``"4:H12"``."""

@@ -1,8 +1,9 @@
 """The per-run cascade on a held-out plate: the live run's own judge, with the plate as the run.
 
-Every plate is played to :class:`~aegis_ot.vision.monitor.RunMonitor` as a robot would play it:
-keyframe by keyframe, well by well, in the order in which the wells were pipetted. Its model never
-saw the plate. The first normal wells, at most six, are its calibration wells and are not scored.
+Every plate is played to :class:`~aegis_ot.vision.run_analyser_factory.RunAnalyserFactory` as a
+robot would play it: keyframe by keyframe, well by well, in the order in which the wells were
+pipetted. Its model never saw the plate. The first normal wells, at most six, are its calibration
+wells and are not scored.
 Plates in the paper's shape begin with one or two normals: such a run is calibrated on one well.
 """
 
@@ -16,7 +17,7 @@ from typing import Any
 from ..vision.calibration import PRESETS, CalibrationSettings
 from ..vision.camera import Frame
 from ..vision.gates import ConfirmingGate, OperatorGate, VolumetricGate
-from ..vision.monitor import MonitorSettings, RunMonitor
+from ..vision.run_analyser_factory import MonitorSettings, RunAnalyserFactory
 from ..vision.second_opinion import SpotCheck
 from ..vision.types import Detector, Image, TipDetection, TrajectorySample
 from ..vocabulary import Keyframe, KeyframeKind, Outcome, Route, Verdict, WellRef
@@ -80,7 +81,7 @@ def run_cascade(
         found = _Replayed(detector)
         # The first wells are known to be normal: nobody is asked about them.
         settings = MonitorSettings(_calibration(wells), ask_first=False, spot_check=_SPOT_CHECK)
-        monitor = RunMonitor(found, held.models.get(anchor.sample.plate), settings, gates)
+        monitor = RunAnalyserFactory(found, held.models.get(anchor.sample.plate), settings, gates)
         analyser = monitor.begin(anchor.sample.plate)
         for number, well in enumerate([anchor, *wells]):
             for keyframe in keyframes(well.sample, number):

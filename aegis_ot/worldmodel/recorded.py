@@ -9,22 +9,14 @@ from typing import Any
 import cv2
 import numpy as np
 
+from ..account.overview import DeliveryEntry
 from ..errors import ConfigurationError, StoreError
 from ..sidecar.overview import run_overview
 from ..sidecar.store import Store
 from ..vision.dataset import LazyDetections
 from ..vision.dataset_checks import in_data_sets
 from ..vision.types import Detector, Image, TrajectorySample
-from ..vocabulary import FailureType, KeyframeKind, Outcome
-
-_FAILURES = {
-    FailureType.PARTIAL_DISPENSE: "partial_single",
-    FailureType.NO_DISPENSE: "no_dispense",
-    FailureType.NO_ASPIRATE: "no_aspirate",
-    FailureType.AIR_BUBBLE: "air_bubble",
-    FailureType.NO_TIP: "no_tip",
-}
-"""Failure types of the data set format by what a verdict can say."""
+from ..vocabulary import FAILURES, FailureType, KeyframeKind, Outcome
 
 
 @dataclass(frozen=True)
@@ -47,7 +39,7 @@ class RecordedRun:
     protocol: str
     source: str
     samples: Sequence[TrajectorySample]
-    entries: Sequence[Mapping[str, Any]]
+    entries: Sequence[DeliveryEntry]
     left_out: int
 
 
@@ -79,7 +71,7 @@ def recorded_runs(store: Store, detector: Detector, runs: Sequence[str] = ()) ->
 
 
 def _run(store: Store, row: Mapping[str, Any], detector: Detector) -> RecordedRun:
-    run = str(row["run"])
+    run, source = str(row["run"]), run_source(row)
     entries = run_overview(store, run)["trajectories"]
     samples, kept = [], []
     for entry in entries:
@@ -87,12 +79,12 @@ def _run(store: Store, row: Mapping[str, Any], detector: Detector) -> RecordedRu
         # Rows of tips are judged tip by tip; a trajectory of one tip is what is learned from.
         row_of_tips = any(keyframe.get("nozzles") for keyframe in keyframes.values())
         if entry["abandoned"] is None and len(keyframes) == len(KeyframeKind) and not row_of_tips:
-            samples.append(_sample(store, run, entry, keyframes, detector))
+            samples.append(_sample(store, run, entry, keyframes, detector, source))
             kept.append(entry)
     return RecordedRun(
         run,
         str(row.get("protocol", "")),
-        run_source(row),
+        source,
         samples,
         kept,
         len(entries) - len(samples),
@@ -105,6 +97,7 @@ def _sample(
     entry: Mapping[str, Any],
     keyframes: Mapping[KeyframeKind, Mapping[str, Any]],
     detector: Detector,
+    source: str,
 ) -> TrajectorySample:
     last = keyframes[KeyframeKind.POST_DISPENSE]
     sequences = {kind: int(keyframes[kind]["sequence"]) for kind in KeyframeKind}
@@ -131,7 +124,7 @@ def _sample(
         positions={
             kind: (float(place[0]), float(place[1]), float(place[2]))
             for kind, keyframe in keyframes.items()
-            if (place := keyframe.get("position")) is not None
+            if source == "real" and (place := keyframe.get("position")) is not None
         },
     )
 
@@ -141,13 +134,13 @@ def _label(verdict: Mapping[str, Any] | None, commanded_ul: float) -> tuple[str,
         return "", "", None
     if verdict["outcome"] == Outcome.PASS.value:
         return "normal", "", None
-    failure = _FAILURES.get(FailureType(verdict["failure"])) if verdict["failure"] else None
-    if failure is None:
+    known = FAILURES[FailureType(verdict["failure"])] if verdict["failure"] else None
+    if known is None or not known.label:
         return "", "", None
     retained = None
-    if failure in ("partial_single", "no_dispense") and verdict["measured_ul"] is not None:
+    if known.stays and verdict["measured_ul"] is not None:
         retained = min(float(verdict["measured_ul"]) / max(commanded_ul, 1e-9), 1.0)
-    return "failure", failure, retained
+    return "failure", known.label, retained
 
 
 class StoredFrames(Mapping[KeyframeKind, Image]):

@@ -33,11 +33,11 @@ def registered_samples(data: Dataset, detector: Detector) -> list[TrajectorySamp
         plates.setdefault(sample.plate, []).append(sample)
     located: dict[str, Mapping[KeyframeKind, TipDetection | None]] = {}
     for plate in plates.values():
-        located.update(_located(plate, TipLocator(detector)))
+        located.update(located_tips(plate, TipLocator(detector)))
     return [replace(sample, detections=located[sample.id]) for sample in samples]
 
 
-def _located(
+def located_tips(
     plate: Sequence[TrajectorySample], locator: TipLocator
 ) -> dict[str, Mapping[KeyframeKind, TipDetection | None]]:
     """The tips of one plate's trajectories, in the order in which they were pipetted."""

@@ -11,14 +11,15 @@ import typer
 
 from aegis_ot.checking import Asking, CheckSettings
 from aegis_ot.checking.files import read_labware
+from aegis_ot.checking.given import split
 from aegis_ot.cli.counting import Counting
 from aegis_ot.cli.exit_codes import BROKEN, CLEAN
 from aegis_ot.cli.models import ModelNames, RecordFolder, backend_of
-from aegis_ot.cli.options import Labware, Rules, one_of, split
+from aegis_ot.cli.options import Labware, Rules, one_of
 from aegis_ot.cli.paths import writable_folder, write_text
 from aegis_ot.errors import ConfigurationError
-from aegis_ot.preflight import load_database
-from aegis_ot.reasoning import Configuration, load_prices
+from aegis_ot.preflight import load_rules
+from aegis_ot.reasoning import AskingConfiguration, load_prices
 
 from ..evaluation.layer1 import (
     Checking,
@@ -28,7 +29,7 @@ from ..evaluation.layer1 import (
     read_labels,
 )
 
-LAYER1_CONFIGS = tuple(configuration.value for configuration in Configuration)
+LAYER1_CONFIGS = tuple(configuration.value for configuration in AskingConfiguration)
 """Judges of protocols that this command can score."""
 
 
@@ -64,11 +65,11 @@ def layer1(
     """
     askings = list(_askings(split("--config", config) or ["rules-only"], model or [], record))
     table = load_prices(prices)
-    database = load_database(tuple(str(path) for path in rules or ()))
+    rule_set = load_rules(tuple(str(path) for path in rules or ()))
     labels = read_labels(
         folder,
-        [family.family for family in database.assays],
-        [rule.id for rule in database.rules],
+        [family.family for family in rule_set.assays],
+        [rule.id for rule in rule_set.rules],
     )
     if figures is not None:
         writable_folder(figures)
@@ -84,8 +85,8 @@ def layer1(
             result = evaluate_layer1(
                 folder.resolve(),
                 labels,
-                Checking(settings, database),
-                asking.configuration if asking else Configuration.RULES_ONLY.value,
+                Checking(settings, rule_set),
+                asking.configuration if asking else AskingConfiguration.RULES_ONLY.value,
                 seed=seed,
                 prices=table,
                 model=asking.backend.name if asking else "",
@@ -114,7 +115,7 @@ def _askings(
     """One for each configuration and model; ``None`` stands for the rules alone."""
     for name in dict.fromkeys(configs):
         one_of("--config", name, LAYER1_CONFIGS)
-        if name == Configuration.RULES_ONLY.value:
+        if name == AskingConfiguration.RULES_ONLY.value:
             yield None
             continue
         chosen: Sequence[str | None] = models or (None,)

@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from aegis_ot.checking.given import split
 from aegis_ot.cli.exit_codes import BROKEN, CLEAN
 from aegis_ot.cli.models import ModelName, RecordFolder, backend_of
-from aegis_ot.cli.options import one_of, split
+from aegis_ot.cli.options import one_of
 from aegis_ot.cli.paths import open_dataset, tip_finder, writable_folder, write_text
 from aegis_ot.errors import ConfigurationError
 from aegis_ot.vocabulary import counted
@@ -82,7 +83,7 @@ def layer2(
     Exit codes: 0 scored, 2 the data set or a setting is no good, or a model that was asked gave no
     answer (export:FILE, which gives none, is no fault).
     """
-    from aegis_ot.cli.progress import Shown
+    from aegis_ot.cli.progress import StageBar
     from aegis_ot.worldmodel.tips import find_tips
 
     from ..evaluation.layer2 import LEAVE_OUT, PROTOCOLS, THRESHOLDS, evaluate_layer2
@@ -104,7 +105,7 @@ def layer2(
         writable_folder(figures)
     data = open_dataset(dataset)
     results, seconds = [], []
-    with Shown() as shown:
+    with StageBar() as shown:
         tips = find_tips(data, tip_finder(boxes), shown)
         for name in dict.fromkeys(names):
             begun = time.monotonic()

@@ -9,9 +9,9 @@ from typing import Annotated
 import typer
 
 from aegis_ot.checking import Asking, check_files, configurations_of
-from aegis_ot.cli.check_settings import settings_of
+from aegis_ot.checking.call_settings import settings_of
+from aegis_ot.checking.given import split
 from aegis_ot.cli.exit_codes import BROKEN
-from aegis_ot.cli.models import ASKING
 from aegis_ot.cli.options import (
     Assay,
     CsvParameters,
@@ -23,13 +23,15 @@ from aegis_ot.cli.options import (
     Select,
     Timeout,
     one_of,
-    spared,
-    split,
+    refuse_to_overwrite,
 )
-from aegis_ot.reasoning import ScriptedBackend, request_in
+from aegis_ot.reasoning import AskingConfiguration, ScriptedBackend, request_in
 from aegis_ot.vocabulary import counted
 
 from ..batch import export_requests, import_answers
+
+ASKING = tuple(c.value for c in AskingConfiguration if c is not AskingConfiguration.RULES_ONLY)
+"""Configurations that ask a model."""
 
 app = typer.Typer()
 llm = typer.Typer(
@@ -61,11 +63,11 @@ def export(
 
     Exit codes: 0 all are written, 2 a protocol could not be rehearsed.
     """
-    spared("--out", out, files)
+    refuse_to_overwrite("--out", out, files)
     configs = [one_of("--config", name, ASKING) for name in split("--config", config) or ["hybrid"]]
     requests, failed = [], False
     for configured, own in configurations_of(list(dict.fromkeys(files)), Path.cwd()):
-        judging, database = settings_of(
+        judging, rule_set = settings_of(
             configured,
             assay=assay,
             rules=rules,
@@ -78,13 +80,13 @@ def export(
         )
         # Nobody answers: the check is made for what a model would get to know.
         settings = dataclasses.replace(judging, asking=Asking(ScriptedBackend([])))
-        for checked in check_files(own, settings, database).protocols:
+        for checked in check_files(own, settings, rule_set).protocols:
             if checked.problem is not None:
                 failed = True
                 typer.echo(f"{checked.file}: {checked.problem.message}", err=True)
             if checked.dossier is None:
                 continue
-            asked = (request_in(name, checked.dossier, database) for name in configs)
+            asked = (request_in(name, checked.dossier, rule_set) for name in configs)
             requests += [(checked.file, request) for request in asked if request is not None]
     count = export_requests(requests, out)
     typer.echo(f"{out}: {count} requests.")

@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from aegis_ot.checking.given import split
 from aegis_ot.cli.exit_codes import BROKEN, CLEAN
 from aegis_ot.cli.models import ModelNames, RecordFolder, backend_of
-from aegis_ot.cli.options import one_of, split
+from aegis_ot.cli.options import one_of
 from aegis_ot.cli.paths import open_dataset, writable_folder, write_text
 
 if TYPE_CHECKING:
@@ -54,9 +55,9 @@ def reproduce(
 
     Exit codes: 0 all were run, 2 one failed (the page says why), or an option is no good.
     """
-    from aegis_ot.cli.progress import Shown
+    from aegis_ot.cli.progress import StageBar
 
-    from ..reproduction import EXPERIMENTS, Context, Options, reproduce
+    from ..reproduction import EXPERIMENTS, Context, ReproductionOptions, reproduce
 
     names = [one.name for one in EXPERIMENTS]
     chosen = [one_of("--only", name, names) for name in split("--only", only) or names]
@@ -64,7 +65,7 @@ def reproduce(
     backends = [one for name in asked if (one := backend_of(name, record)) is not None]
     folders = tuple(open_dataset(folder).root for folder in data or ())
     writable_folder(out)
-    options = Options(
+    options = ReproductionOptions(
         out,
         seed,
         folders,
@@ -76,7 +77,7 @@ def reproduce(
     if again:
         for name in chosen:
             (out / "experiments" / f"{name}.json").unlink(missing_ok=True)
-    with Shown() as shown:
+    with StageBar() as shown:
         context = Context(options, backends, shown)
         _ = context.given  # a set that cannot be used is told before anything is run
         entries = reproduce(EXPERIMENTS, chosen, context, _tell, lambda all_: _write(all_, out))

@@ -1,7 +1,7 @@
 """Every table and figure of the paper by one command: ``aegis-ot reproduce``.
 
-An experiment is a short module that makes an :class:`~.experiment.Outcome`; :data:`EXPERIMENTS`
-lists them, :func:`reproduce` runs them and keeps what is finished.
+An experiment is a short module that makes an :class:`~.experiment.ExperimentOutcome`;
+:data:`EXPERIMENTS` lists them, :func:`reproduce` runs them and keeps what is finished.
 """
 
 from . import (
@@ -18,8 +18,8 @@ from . import (
     multi_bug,
     rules,
 )
-from .context import Context, Options, as_json
-from .experiment import Experiment, Outcome
+from .context import Context, ReproductionOptions, as_json
+from .experiment import Experiment, ExperimentOutcome
 from .page import reproduction_html, reproduction_json
 from .runner import Entry, reproduce
 
@@ -45,8 +45,8 @@ __all__ = [
     "Context",
     "Entry",
     "Experiment",
-    "Options",
-    "Outcome",
+    "ExperimentOutcome",
+    "ReproductionOptions",
     "as_json",
     "reproduce",
     "reproduction_html",

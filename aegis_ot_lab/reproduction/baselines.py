@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from aegis_ot.reasoning import Backend
-from aegis_ot.vision.gates import Case
+from aegis_ot.vision.gates import GateInput
 from aegis_ot.vocabulary import Outcome as Word
 from aegis_ot.vocabulary import Route
 from aegis_ot.worldmodel.tips import FoundTips
@@ -17,7 +17,7 @@ from ..evaluation.layer2 import Layer2Result
 from ..evaluation.layer2.metrics import f1, precision, recall
 from ..scorers import BASELINES
 from .context import Context, label
-from .experiment import NOT_RUN, Experiment, Outcome, Table, table
+from .experiment import NOT_RUN, Experiment, ExperimentOutcome, Table, table
 from .layer1 import NO_MODEL
 from .leave_one_out import evaluate, name_of
 
@@ -30,7 +30,7 @@ NEVER = {
 """What of SI B has no counterpart here."""
 
 
-def run(context: Context) -> Outcome:
+def run(context: Context) -> ExperimentOutcome:
     """Every baseline on every p1000 set; the vision model where one answers."""
     tables, answers = [], []
     figures: dict[str, dict[str, Any]] = {}
@@ -51,7 +51,7 @@ def run(context: Context) -> Outcome:
             f"{data.name}: AUROC {shown}; {len(worse)} of {len(BASELINES) - 1} worse than pca"
         )
     alone = "vision model alone: see the table" if context.backends else f"vision model {NO_MODEL}"
-    return Outcome(
+    return ExperimentOutcome(
         data=tuple(context.describe(data) for data, _ in sets),
         answers={"baselines": (*answers, alone)},
         tables=tuple(tables),
@@ -97,7 +97,7 @@ def _model_alone(context: Context, backend: Backend, tips: FoundTips) -> dict[st
     context.progress.begin(f"Asking {backend.name} about every well", len(wells))
     words = []
     for sample in wells:
-        words.append(gate.examine(Case(sample, Route.ALWAYS_GATE, calibrated=False)))
+        words.append(gate.examine(GateInput(sample, Route.ALWAYS_GATE, calibrated=False)))
         context.progress.step()
     silent = [word for word in words if word.outcome is Word.UNDECIDED]
     if len(silent) == len(words):

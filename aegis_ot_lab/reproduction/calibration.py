@@ -13,7 +13,7 @@ from aegis_ot.vision.calibration import PRESETS, CalibrationSettings, RunCalibra
 
 from ..evaluation.layer2.figures import COLOURS, Canvas
 from .context import Context
-from .experiment import Experiment, Outcome, Picture, table
+from .experiment import Experiment, ExperimentOutcome, ExperimentPicture, table
 
 Draw = Callable[[np.random.Generator, int], NDArray[np.float64]]
 
@@ -28,7 +28,7 @@ MULTIPLIERS = (0.7, 1.0, 1.5, 2.0, 2.5, 3.0, 3.5, 4.0, 5.0)
 RUNS, LATER = 2000, 20
 
 
-def run(context: Context) -> Outcome:
+def run(context: Context) -> ExperimentOutcome:
     """Simulate scores; no frames are in this."""
     shares = {
         name: [
@@ -47,7 +47,7 @@ def run(context: Context) -> Outcome:
     canvas = Canvas(context.pictures("calibration"), "simulated scores, six calibration wells")
     canvas.draw("band", lambda axes: _band(axes, shares))
     paper = PRESETS["paper"]
-    return Outcome(
+    return ExperimentOutcome(
         data=("simulated: scores of exchangeable normal wells, no frames",),
         answers={
             "calibration": (
@@ -64,7 +64,9 @@ def run(context: Context) -> Outcome:
             ),
         ),
         pictures=(
-            Picture(context.picture(canvas.paths[0]), "Normal wells sent to the gate, by width"),
+            ExperimentPicture(
+                context.picture(canvas.paths[0]), "Normal wells sent to the gate, by width"
+            ),
         ),
         notes=(
             "The paper's 15.7 % of wells routed corresponds to a multiplier of 3.5 to 4, not to "

@@ -15,10 +15,10 @@ from aegis_ot.vision.types import TrajectorySample
 from ..evaluation.layer2.figures import Canvas, draw_components
 from ..evaluation.layer2.studies import component_sweep, explained_variance
 from .context import Context, label
-from .experiment import Experiment, Outcome, Picture, table
+from .experiment import Experiment, ExperimentOutcome, ExperimentPicture, table
 
 
-def run(context: Context) -> Outcome:
+def run(context: Context) -> ExperimentOutcome:
     """Scree and sweep on every p1000 set."""
     folder = context.pictures("components")
     tables, pictures, model, sweep = [], [], [], []
@@ -33,7 +33,7 @@ def run(context: Context) -> Outcome:
         draw_components(canvas, explained, points)
         names = ("Variance explained", "Number of components, F1 and threshold")
         pictures += [
-            Picture(context.picture(file), f"{name}: {title}")
+            ExperimentPicture(context.picture(file), f"{name}: {title}")
             for file, name in zip(canvas.paths, names, strict=True)
         ]
         tables.append(
@@ -64,7 +64,7 @@ def run(context: Context) -> Outcome:
             "sweep": [asdict(point) for point in points],
             "learned_threshold": {str(k): value for k, value in inside.items()},
         }
-    return Outcome(
+    return ExperimentOutcome(
         data=tuple(context.describe(data) for data, _ in sets),
         answers={"world-model": tuple(model), "components": tuple(sweep)},
         tables=tuple(tables),

@@ -39,7 +39,7 @@ PIPETTES = ("p1000", "p20")
 
 
 @dataclass(frozen=True)
-class Options:
+class ReproductionOptions:
     """What the user asked for.
 
     Attributes:
@@ -76,7 +76,7 @@ class Context:
         progress: Told how far it is.
     """
 
-    options: Options
+    options: ReproductionOptions
     backends: Sequence[Backend] = ()
     progress: Progress = field(default_factory=Progress)
     _sets: dict[str, list[Dataset]] = field(default_factory=dict, init=False)

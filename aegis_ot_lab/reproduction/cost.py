@@ -6,12 +6,12 @@ import statistics
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from aegis_ot.reasoning import Usage, load_prices
+from aegis_ot.reasoning import TokenUsage, load_prices
 
 from ..evaluation.layer1.bill import cost_of
 from .context import Context
-from .experiment import NOT_RUN, Experiment, Outcome, Table, table
-from .jury import Counted, Word, after_calibration, analysers, counted, judged_run
+from .experiment import NOT_RUN, Experiment, ExperimentOutcome, Table, table
+from .jury import CountedModel, Word, after_calibration, analysers, counted, judged_run
 from .live import REAGENTS, script_of, unanswered
 
 SEED = 96_000
@@ -58,7 +58,7 @@ class Asked:
     spent: float | None
 
 
-def run(context: Context) -> Outcome:
+def run(context: Context) -> ExperimentOutcome:
     """One plate of sound wells of each reagent, the same frames for all operating points."""
     asking = counted([None, *context.backends])
     points = analysers(context.papers_model(), {}, asking)
@@ -78,8 +78,8 @@ def run(context: Context) -> Outcome:
     }
     asked = {point: _asked(asking[point], wells) for point in found}
     tokens = statistics.median([n for one in asking.values() for n in one.tokens] or [0])
-    call = load_prices().cost(PRICED, Usage(input=round(tokens), output=ANSWER_TOKENS))
-    return Outcome(
+    call = load_prices().cost(PRICED, TokenUsage(input=round(tokens), output=ANSWER_TOKENS))
+    return ExperimentOutcome(
         data=(
             f"simulated: robot and camera (1280x720, grey panel), {wells} sound wells of each "
             "reagent, p1000, 100 µL",
@@ -115,7 +115,7 @@ def _routed(runs: Sequence[Sequence[Word]]) -> Routed:
     return Routed(len(later), sum(word.routed for word in later))
 
 
-def _asked(one: Counted, wells: int) -> Asked:
+def _asked(one: CountedModel, wells: int) -> Asked:
     """Of runs of ``wells`` wells, one for each reagent, told for a plate of 96."""
     scale = PLATE / wells / len(REAGENTS)
     amounts = [cost_of(reply, load_prices()) for reply in one.replies]

@@ -9,10 +9,10 @@ from aegis_ot.vision.detection import HeatmapDetector
 from ..training.figures import measure, read_images
 from ..training.recorded import read_frames
 from .context import PIPETTES, Context, label
-from .experiment import Experiment, Outcome, table
+from .experiment import Experiment, ExperimentOutcome, table
 
 
-def run(context: Context) -> Outcome:
+def run(context: Context) -> ExperimentOutcome:
     """The shipped detector on every frame of every set that has labelled tips."""
     detector = HeatmapDetector()
     rows, answers, figures, used = [], [], {}, []
@@ -30,7 +30,7 @@ def run(context: Context) -> Outcome:
                 (data.name, label(data.source), f"{found.map50:.3f}", f"{found.found:.3f}",
                  f"{found.false_alarms}/{found.empty_frames}", f"{found.mean_overlap:.3f}")
             )  # fmt: skip
-    return Outcome(
+    return ExperimentOutcome(
         data=tuple(context.describe(data) for data in used),
         answers={"detector": tuple(answers)},
         tables=(

@@ -29,7 +29,7 @@ class Table:
 
 
 @dataclass(frozen=True)
-class Picture:
+class ExperimentPicture:
     """A figure of the page: a PNG in the output folder, and what it shows."""
 
     file: str
@@ -37,7 +37,7 @@ class Picture:
 
 
 @dataclass(frozen=True)
-class Outcome:
+class ExperimentOutcome:
     """What came of an experiment.
 
     Attributes:
@@ -54,7 +54,7 @@ class Outcome:
     data: tuple[str, ...]
     answers: Mapping[str, tuple[str, ...]]
     tables: tuple[Table, ...] = ()
-    pictures: tuple[Picture, ...] = ()
+    pictures: tuple[ExperimentPicture, ...] = ()
     notes: tuple[str, ...] = ()
     figures: Mapping[str, Any] = field(default_factory=dict)
     timings: Mapping[str, Any] = field(default_factory=dict)
@@ -64,7 +64,7 @@ class Outcome:
         return asdict(self)
 
     @classmethod
-    def from_json(cls, kept: Mapping[str, Any]) -> Outcome:
+    def from_json(cls, kept: Mapping[str, Any]) -> ExperimentOutcome:
         """From plain values; raises what malformed ones raise."""
         return cls(
             tuple(kept["data"]),
@@ -73,7 +73,7 @@ class Outcome:
                 Table(one["title"], tuple(one["header"]), tuple(map(tuple, one["rows"])))
                 for one in kept["tables"]
             ),
-            tuple(Picture(one["file"], one["caption"]) for one in kept["pictures"]),
+            tuple(ExperimentPicture(one["file"], one["caption"]) for one in kept["pictures"]),
             tuple(kept["notes"]),
             dict(kept["figures"]),
             dict(kept["timings"]),
@@ -99,7 +99,7 @@ class Experiment:
     place: str
     rows: tuple[str, ...]
     uses: tuple[str, ...]
-    run: Callable[[Context], Outcome]
+    run: Callable[[Context], ExperimentOutcome]
 
 
 def table(title: str, header: Sequence[str], rows: Sequence[Sequence[object]]) -> Table:

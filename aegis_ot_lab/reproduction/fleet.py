@@ -9,7 +9,7 @@ from aegis_ot.errors import ConfigurationError
 
 from ..evaluation.layer2.figures import COLOURS, Canvas
 from .context import Context
-from .experiment import Experiment, Outcome, Picture, Table, table
+from .experiment import Experiment, ExperimentOutcome, ExperimentPicture, Table, table
 
 if TYPE_CHECKING:
     from ..fleet_scaling import Point
@@ -31,7 +31,7 @@ PAPER = {
 }
 
 
-def run(context: Context) -> Outcome:
+def run(context: Context) -> ExperimentOutcome:
     """Judge the workload live once, then play it back on ever more robots."""
     try:
         from ..fleet_scaling import judge_live, sweep, workload
@@ -53,7 +53,7 @@ def run(context: Context) -> Outcome:
     walls = ", ".join(f"{point.seconds * SCALE:.1f}" for point in points[: len(ROBOTS)])
     last = points[len(ROBOTS) - 1]
     detected = ", ".join(str(point.detected) for point in points[: len(ROBOTS)])
-    return Outcome(
+    return ExperimentOutcome(
         data=(f"simulated: robots, frames and model latency (8 to 10 s, divided by {SCALE:g})",),
         answers={
             "fleet": (
@@ -63,7 +63,7 @@ def run(context: Context) -> Outcome:
             )
         },
         tables=(_table(points),),
-        pictures=(Picture(context.picture(canvas.paths[0]), "Speed-up of the fleet"),),
+        pictures=(ExperimentPicture(context.picture(canvas.paths[0]), "Speed-up of the fleet"),),
         notes=(
             "Both layers judge the 16 protocols once, live; the sweep plays those results back "
             "through the fleet's agents and coordinator. The paper's wall times hold the work of "

@@ -11,7 +11,7 @@ from typing import Any
 from aegis_ot.dryrun import TRUSTING, DryRunSettings, dry_run
 from aegis_ot.preflight.rehearsal import Script
 from aegis_ot.reasoning import Backend, Reply, Request, State, load_prices, request_size
-from aegis_ot.sidecar import Analyser, RunAnalyser, make_analyser
+from aegis_ot.sidecar import Analyser, RunAnalysis, make_analyser
 from aegis_ot.sidecar.analysers import make_detector
 from aegis_ot.sidecar.config import CascadeSettings
 from aegis_ot.vision.camera import Frame
@@ -71,7 +71,7 @@ class Word:
         return self.route not in (Route.CALIBRATION, Route.SILENT_PASS)
 
 
-class Counted:
+class CountedModel:
     """Stands between an operating point and its model, if there is one, and counts.
 
     Attributes:
@@ -102,14 +102,14 @@ class Counted:
         return any(reply.answered for reply in self.replies)
 
 
-def counted(backends: Sequence[Backend | None]) -> dict[str, Counted]:
+def counted(backends: Sequence[Backend | None]) -> dict[str, CountedModel]:
     """A counter for each of :data:`MODEL_POINTS` and backend, by the point's name."""
-    counters = [(form, Counted(one)) for one in backends for form in MODEL_POINTS]
+    counters = [(form, CountedModel(one)) for one in backends for form in MODEL_POINTS]
     return {form.format(one.name): one for form, one in counters}
 
 
 def analysers(
-    pca: Path, points: Mapping[str, CascadeSettings], asking: Mapping[str, Counted]
+    pca: Path, points: Mapping[str, CascadeSettings], asking: Mapping[str, CountedModel]
 ) -> dict[str, Analyser]:
     """Operating points by name.
 
@@ -159,7 +159,7 @@ class _Jury:
     struck: int | None
     words: dict[str, list[Word]] = field(default_factory=dict)
 
-    def begin(self, run: str, history: Sequence[Any] = ()) -> RunAnalyser:
+    def begin(self, run: str, history: Sequence[Any] = ()) -> RunAnalysis:
         """As any analyser."""
         self.words = {name: [] for name in self.inner}
         return _JuryRun(self, {name: one.begin(run) for name, one in self.inner.items()})
@@ -168,7 +168,7 @@ class _Jury:
 @dataclass
 class _JuryRun:
     jury: _Jury
-    inner: Mapping[str, RunAnalyser]
+    inner: Mapping[str, RunAnalysis]
 
     def observe(self, keyframe: Keyframe, frame: Frame) -> None:
         for one in self.inner.values():

@@ -9,13 +9,13 @@ from typing import Any
 
 from aegis_ot.dryrun.runner import TRUSTING, DryRunSettings, dry_run
 from aegis_ot.errors import StoreError
-from aegis_ot.sidecar import Analyser, Judged, RunAnalyser, make_analyser
+from aegis_ot.sidecar import Analyser, Judged, RunAnalysis, make_analyser
 from aegis_ot.vision.camera import Frame
 from aegis_ot.vocabulary import Keyframe, KeyframeKind
 
 from ..evaluation.layer2.figures import COLOURS, Canvas
 from .context import Context
-from .experiment import Experiment, Outcome, Picture, table
+from .experiment import Experiment, ExperimentOutcome, ExperimentPicture, table
 from .live import KINDS, STRUCK, WELLS, script_of
 
 RUNS = 9
@@ -34,7 +34,7 @@ PARTS = {
 }
 
 
-def run(context: Context) -> Outcome:
+def run(context: Context) -> ExperimentOutcome:
     """Nine runs that the guard stops at the planted failure."""
     analyser = make_analyser(TRUSTING)
     context.progress.begin("Paused runs in real time", RUNS)
@@ -52,7 +52,7 @@ def run(context: Context) -> Outcome:
     canvas.draw("latency", lambda axes: _bars(axes, paused), width=7.0)
     rows = [(PARTS[name], _spread(values)) for name, values in parts.items()]
     rows.append(("failed dispense to halt", _spread(total)))
-    return Outcome(
+    return ExperimentOutcome(
         data=(
             f"simulated: robot and camera ({RATE:g} frames/s), real sidecar over loopback, "
             f"{RUNS} runs with a partial dispense in well {STRUCK + 1}, in real time",
@@ -64,7 +64,9 @@ def run(context: Context) -> Outcome:
             )
         },
         tables=(table("Where the time goes, s", ("part", "mean ± standard deviation"), rows),),
-        pictures=(Picture(context.picture(canvas.paths[0]), "Latency of each paused run"),),
+        pictures=(
+            ExperimentPicture(context.picture(canvas.paths[0]), "Latency of each paused run"),
+        ),
         notes=(
             "The paper: 4.0 s for frames and 5.5 s for its vision model to the pause call, then "
             "the robot ran on to the next boundary, 13.27 ± 0.47 s in all. This guard holds the "
@@ -114,13 +116,13 @@ class _Timed:
 
     def __init__(self, analyser: Analyser) -> None:
         self._analyser = analyser
-        self._run: RunAnalyser | None = None
+        self._run: RunAnalysis | None = None
         self.triggers: dict[tuple[int, KeyframeKind], float] = {}
         self.waits: dict[tuple[int, KeyframeKind], float] = {}
         self.seen: dict[tuple[int, KeyframeKind], float] = {}
         self.judged: dict[int, float] = {}
 
-    def begin(self, run: str, history: Sequence[Judged] = ()) -> RunAnalyser:
+    def begin(self, run: str, history: Sequence[Judged] = ()) -> RunAnalysis:
         """It follows one run."""
         self._run = self._analyser.begin(run, history)
         return self

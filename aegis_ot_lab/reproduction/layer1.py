@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from aegis_ot.checking import Asking, CheckSettings
-from aegis_ot.preflight import Database, load_database
-from aegis_ot.reasoning import Backend, Configuration, Usage
+from aegis_ot.preflight import RuleSet, load_rules
+from aegis_ot.reasoning import AskingConfiguration, Backend, TokenUsage
 
 from ..evaluation.layer1 import (
     Checking,
@@ -21,13 +21,13 @@ from ..evaluation.layer1 import (
     read_labels,
 )
 from .context import Context, benchmark_folder
-from .experiment import NOT_RUN, Experiment, Outcome, Picture, table
+from .experiment import NOT_RUN, Experiment, ExperimentOutcome, ExperimentPicture, table
 
 NO_MODEL = f"{NOT_RUN}: no model; give one with --model NAME, or replay:FOLDER"
 
-RULES = Configuration.RULES_ONLY.value
-ASKING = tuple(c.value for c in (Configuration.HYBRID, Configuration.TRACE_BLIND,
-                                 Configuration.LLM_ONLY))  # fmt: skip
+RULES = AskingConfiguration.RULES_ONLY.value
+ASKING = tuple(c.value for c in (AskingConfiguration.HYBRID, AskingConfiguration.TRACE_BLIND,
+                                 AskingConfiguration.LLM_ONLY))  # fmt: skip
 PAPER = {
     RULES: "rules only (regex): 0.741",
     "hybrid": "no counterpart: the paper's models see no trace",
@@ -37,7 +37,7 @@ PAPER = {
 
 
 def judge_benchmark(
-    context: Context, name: str, labels: list[Label], database: Database,
+    context: Context, name: str, labels: list[Label], rule_set: RuleSet,
     configuration: str = RULES, backend: Backend | None = None,
 ) -> Layer1Result:  # fmt: skip
     """One configuration on one folder of protocols."""
@@ -51,7 +51,7 @@ def judge_benchmark(
     return evaluate_layer1(
         benchmark_folder(name).resolve(),
         labels,
-        Checking(CheckSettings(asking=asking), database),
+        Checking(CheckSettings(asking=asking), rule_set),
         configuration,
         seed=context.options.seed,
         model=backend.name if backend is not None else "",
@@ -59,28 +59,28 @@ def judge_benchmark(
     )
 
 
-def labels_of(name: str, database: Database) -> list[Label]:
+def labels_of(name: str, rule_set: RuleSet) -> list[Label]:
     """Of a benchmark folder."""
-    families = [family.family for family in database.assays]
-    return read_labels(benchmark_folder(name), families, [rule.id for rule in database.rules])
+    families = [family.family for family in rule_set.assays]
+    return read_labels(benchmark_folder(name), families, [rule.id for rule in rule_set.rules])
 
 
-def run(context: Context) -> Outcome:
+def run(context: Context) -> ExperimentOutcome:
     """Judge in every configuration that there is somebody for."""
-    database = load_database()
-    labels = labels_of("benchmark", database)
-    results = [judge_benchmark(context, "benchmark", labels, database)]
+    rule_set = load_rules()
+    labels = labels_of("benchmark", rule_set)
+    results = [judge_benchmark(context, "benchmark", labels, rule_set)]
     silent: list[tuple[str, str, str]] = []
     for backend in context.backends:
         for name in ASKING:
-            result = judge_benchmark(context, "benchmark", labels, database, name, backend)
+            result = judge_benchmark(context, "benchmark", labels, rule_set, name, backend)
             if len(result.unanswered) == len(labels):
                 states = {row.unanswered for row in result.rows}
                 silent.append((name, backend.name, ", ".join(sorted(states))))
             else:
                 results.append(result)
     drawn = draw_ablation(results, context.pictures("layer1"))
-    return Outcome(
+    return ExperimentOutcome(
         data=("protocols: examples/benchmark, 24 protocols with planted mistakes",),
         answers=_answers(results, silent),
         tables=(
@@ -155,7 +155,7 @@ def _answers(
     asked = [
         f"{statistics.median(row.seconds for row in r.rows):.1f} s with {r.judge}, {r.model}"
         for r in results[1:]
-        if r.bill is not None and r.bill.usage != Usage()  # an imported answer has no time
+        if r.bill is not None and r.bill.usage != TokenUsage()  # an imported answer has no time
     ]
     said["time"] = (f"{mean:.2f} s without a model", *asked)
     return said
@@ -187,10 +187,10 @@ def _figures(result: Layer1Result) -> dict[str, Any]:
     return told
 
 
-def _pictures(context: Context, drawn: list[Path]) -> tuple[Picture, ...]:
+def _pictures(context: Context, drawn: list[Path]) -> tuple[ExperimentPicture, ...]:
     captions = ("Layer 1 ablation, adjusted labels", "Layer 1 ablation, strict labels")
     return tuple(
-        Picture(context.picture(file), caption)
+        ExperimentPicture(context.picture(file), caption)
         for file, caption in zip(drawn, captions, strict=True)
     )
 

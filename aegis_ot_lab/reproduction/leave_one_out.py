@@ -16,7 +16,7 @@ from aegis_ot.worldmodel.tips import FoundTips
 from ..evaluation.layer2 import Layer2Result, draw_figures, evaluate_layer2
 from ..evaluation.layer2.studies import sample_complexity
 from .context import Context, label
-from .experiment import Experiment, Outcome, Picture, Table, table
+from .experiment import Experiment, ExperimentOutcome, ExperimentPicture, Table, table
 
 SCORERS = ("pca", "ensemble")
 """The paper's, and ours."""
@@ -85,11 +85,11 @@ def _number(value: float) -> str:
     return "not defined" if np.isnan(value) else f"{value:.3f}"
 
 
-def run(context: Context, pipette: str, experiment: str) -> Outcome:
+def run(context: Context, pipette: str, experiment: str) -> ExperimentOutcome:
     """The paper's scorer and ours on every set of a pipette."""
     folder = context.pictures(experiment)
     tables: list[Table] = []
-    pictures: list[Picture] = []
+    pictures: list[ExperimentPicture] = []
     results: list[Layer2Result] = []
     sets = context.tips(pipette)
     for data, tips in sets:
@@ -99,7 +99,7 @@ def run(context: Context, pipette: str, experiment: str) -> Outcome:
         tables += [_metrics(title, pipette, found), _groups(title, pipette, found)]
         for file in draw_figures(found, folder / data.name):
             caption = f"{_CAPTIONS.get(file.stem, file.stem)}: {title}"
-            pictures.append(Picture(context.picture(Path(file)), caption))
+            pictures.append(ExperimentPicture(context.picture(Path(file)), caption))
     answers = {"data": tuple(_counts(data) for data, _ in sets)}
     figures = {f"{one.dataset} {one.scorer}": one.to_json() for one in results}
     if pipette == "p20":
@@ -108,7 +108,7 @@ def run(context: Context, pipette: str, experiment: str) -> Outcome:
     else:
         answers["lopo"] = tuple(map(short, results))
         answers["failure-types"] = tuple(map(_short_groups, results))
-    return Outcome(
+    return ExperimentOutcome(
         data=tuple(context.describe(data) for data, _ in sets),
         answers=answers,
         tables=tuple(tables),

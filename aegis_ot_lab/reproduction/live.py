@@ -11,7 +11,7 @@ from aegis_ot.vision.reach import wilson
 from aegis_ot.vocabulary import Outcome as Said
 
 from .context import Context
-from .experiment import NOT_RUN, Experiment, Outcome, Table, table
+from .experiment import NOT_RUN, Experiment, ExperimentOutcome, Table, table
 from .jury import (
     ALWAYS,
     MODEL_POINTS,
@@ -65,7 +65,7 @@ def script_of(reagent: str, wells: int, volume: float = 140.0) -> Script:
     return Script(PROTOCOL.format(reagent=liquid, wells=wells, volume=volume), f"{reagent}.py")
 
 
-def run(context: Context) -> Outcome:
+def run(context: Context) -> ExperimentOutcome:
     """Every cell of the matrix, the same frames for all operating points."""
     pca = context.papers_model()
     asking = counted(context.backends)
@@ -82,7 +82,7 @@ def run(context: Context) -> Outcome:
         context.progress.step()
     silent = [point for point, one in asking.items() if one.replies and not one.answered]
     shown = [point for point in points if point not in silent]
-    return Outcome(
+    return ExperimentOutcome(
         data=(
             f"simulated: robot, camera (1280x720, grey panel) and faults; {WELLS} wells a run, "
             f"fault in well {STRUCK + 1}, p1000, 140 µL, {replicates} runs a cell, accelerated",

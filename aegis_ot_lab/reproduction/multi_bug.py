@@ -2,26 +2,26 @@
 
 from __future__ import annotations
 
-from aegis_ot.preflight import load_database
+from aegis_ot.preflight import load_rules
 
 from ..evaluation.layer1 import Layer1Result
 from .context import Context
-from .experiment import Experiment, Outcome, table
+from .experiment import Experiment, ExperimentOutcome, table
 from .layer1 import judge_benchmark, labels_of
 
 FOLDER = "benchmark-multi"
 
 
-def run(context: Context) -> Outcome:
+def run(context: Context) -> ExperimentOutcome:
     """Judge the three protocols by the rules, and by each model that answers."""
-    database = load_database()
-    labels = labels_of(FOLDER, database)
-    results = [judge_benchmark(context, FOLDER, labels, database)]
+    rule_set = load_rules()
+    labels = labels_of(FOLDER, rule_set)
+    results = [judge_benchmark(context, FOLDER, labels, rule_set)]
     for backend in context.backends:
-        result = judge_benchmark(context, FOLDER, labels, database, "hybrid", backend)
+        result = judge_benchmark(context, FOLDER, labels, rule_set, "hybrid", backend)
         if len(result.unanswered) < len(labels):
             results.append(result)
-    return Outcome(
+    return ExperimentOutcome(
         data=(f"protocols: examples/{FOLDER}, {len(labels)} protocols",),
         answers={"multi-bug": tuple(map(_short, results))},
         tables=(

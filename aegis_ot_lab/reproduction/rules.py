@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-from aegis_ot.preflight import load_database
+from aegis_ot.preflight import load_rules
 
 from ..evaluation.layer1 import read_labels
 from .context import Context, benchmark_folder
-from .experiment import Experiment, Outcome, table
+from .experiment import Experiment, ExperimentOutcome, table
 
 
-def run(context: Context) -> Outcome:
+def run(context: Context) -> ExperimentOutcome:
     """Count."""
-    database = load_database()
-    families = [family.family for family in database.assays]
-    rules = {family.family: len(family.rules) for family in database.assays}
-    known = families, [rule.id for rule in database.rules]
+    rule_set = load_rules()
+    families = [family.family for family in rule_set.assays]
+    rules = {family.family: len(family.rules) for family in rule_set.assays}
+    known = families, [rule.id for rule in rule_set.rules]
     labels = read_labels(benchmark_folder("benchmark"), *known)
     several = read_labels(benchmark_folder("benchmark-multi"), *known)
     bad = [label for label in labels if label.is_bad]
@@ -28,7 +28,7 @@ def run(context: Context) -> Outcome:
         "relabelled": relabelled,
     }
     bugs = sum(len(label.rules) for label in several)
-    return Outcome(
+    return ExperimentOutcome(
         data=("protocols: the rule database and the benchmark of this version",),
         answers={
             "rules": (f"{sum(rules.values())} over {len(rules)} assay families",),

@@ -14,7 +14,7 @@ from typing import Any
 from aegis_ot.errors import AegisError, ConfigurationError
 
 from .context import Context, as_json, version
-from .experiment import Experiment, Outcome
+from .experiment import Experiment, ExperimentOutcome
 
 
 @dataclass(frozen=True)
@@ -34,7 +34,7 @@ class Entry:
     """
 
     experiment: Experiment
-    outcome: Outcome | None = None
+    outcome: ExperimentOutcome | None = None
     problem: str = ""
     seconds: float = 0.0
     date: str = ""
@@ -168,7 +168,7 @@ def _kept(experiment: Experiment, context: Context) -> Entry | None:
         kept: Mapping[str, Any] = json.loads(_file(experiment, context).read_text("utf-8"))
         if kept["key"] != key(experiment, context):
             return None
-        outcome = Outcome.from_json(kept["outcome"])
+        outcome = ExperimentOutcome.from_json(kept["outcome"])
         told = {name: kept[name] for name in ("seconds", "date", "command", "version", "seed")}
     except (OSError, ValueError, KeyError, TypeError):
         return None

@@ -21,20 +21,20 @@ _MISTAKEN = (np.log(0.8), np.log(1.8))
 
 
 @dataclass(frozen=True)
-class Example:
+class TrainingExample:
     """A view and the tip in it, px of the view."""
 
     image: Image
     label: TipLabel | None
 
-    def mirrored(self) -> Example:
+    def mirrored(self) -> TrainingExample:
         """Left and right exchanged."""
         flipped = np.ascontiguousarray(self.image[:, ::-1])
         if self.label is None:
-            return Example(flipped, None)
-        return Example(flipped, self.label.mapped(-1.0, 1.0, self.image.shape[1], 0.0))
+            return TrainingExample(flipped, None)
+        return TrainingExample(flipped, self.label.mapped(-1.0, 1.0, self.image.shape[1], 0.0))
 
-    def cropped(self, rng: np.random.Generator, height: int, width: int) -> Example:
+    def cropped(self, rng: np.random.Generator, height: int, width: int) -> TrainingExample:
         """A part of the given size, px, around the tip where there is one; all if it is small."""
         rows, columns = self.image.shape[:2]
         if rows <= height or columns <= width:
@@ -47,7 +47,7 @@ class Example:
             x = int(np.clip(cx - width * rng.uniform(0.1, 0.9), 0, columns - width))
         part = np.ascontiguousarray(self.image[y : y + height, x : x + width])
         label = None if self.label is None else self.label.mapped(1.0, 1.0, -float(x), -float(y))
-        return Example(part, label)
+        return TrainingExample(part, label)
 
 
 def _in_view(view: View, label: TipLabel | None) -> TipLabel | None:
@@ -58,15 +58,15 @@ def _in_view(view: View, label: TipLabel | None) -> TipLabel | None:
     )
 
 
-def overview_example(image: Image, label: TipLabel | None) -> Example:
+def overview_example(image: Image, label: TipLabel | None) -> TrainingExample:
     """The whole frame as the detector's first look sees it."""
     view = overview(image)
-    return Example(view.image, _in_view(view, label))
+    return TrainingExample(view.image, _in_view(view, label))
 
 
 def close_up_example(
     rng: np.random.Generator, image: Image, label: TipLabel | None, decoy: TipLabel | None
-) -> Example:
+) -> TrainingExample:
     """A close-up about as wrong as the first look may aim it.
 
     Without a tip it shows the bare nozzle (``decoy``) two times in three, or any place.
@@ -96,7 +96,7 @@ def close_up_example(
         inside = all(0 <= x <= columns and 0 <= y <= rows for x, y in (seen.collar, seen.orifice))
         if not inside:
             seen = None
-    return Example(view.image, seen)
+    return TrainingExample(view.image, seen)
 
 
 def targets(rows: int, columns: int, label: TipLabel | None) -> tuple[Maps, Maps]:

@@ -14,7 +14,7 @@ import torch
 from torch import Tensor, nn
 
 from .axes import TipLabel
-from .examples import Example, Image, close_up_example, overview_example, targets
+from .examples import Image, TrainingExample, close_up_example, overview_example, targets
 from .frame_pool import FramePool
 from .network import TipNetwork
 from .photometry import shows
@@ -129,7 +129,7 @@ def training_frames(
     pool: FramePool | None,
     simulated: SimulatedFrames,
     rng: np.random.Generator,
-) -> Iterator[tuple[Example, list[Example]]]:
+) -> Iterator[tuple[TrainingExample, list[TrainingExample]]]:
     """Overviews and close-ups of frame after frame, without end."""
     for image, label, decoy in mixed_frames(settings, pool, simulated, rng):
         if not shows(image, label or decoy):  # overexposed: nothing is left to see
@@ -160,9 +160,9 @@ def _collect(
     pool: FramePool | None,
     simulated: SimulatedFrames,
     rng: np.random.Generator,
-) -> tuple[list[Example], list[Example]]:
-    wide: list[Example] = []
-    close: list[Example] = []
+) -> tuple[list[TrainingExample], list[TrainingExample]]:
+    wide: list[TrainingExample] = []
+    close: list[TrainingExample] = []
     for overview, close_ups in training_frames(settings, pool, simulated, rng):
         wide.append(overview)
         close += close_ups
@@ -172,10 +172,10 @@ def _collect(
 
 
 def _batches(
-    examples: Sequence[Example], size: int, rng: np.random.Generator
-) -> list[list[Example]]:
+    examples: Sequence[TrainingExample], size: int, rng: np.random.Generator
+) -> list[list[TrainingExample]]:
     """Shuffled batches of equally large views."""
-    by_shape: dict[tuple[int, ...], list[Example]] = {}
+    by_shape: dict[tuple[int, ...], list[TrainingExample]] = {}
     for i in rng.permutation(len(examples)):
         by_shape.setdefault(examples[i].image.shape, []).append(examples[i])
     return [
@@ -187,7 +187,7 @@ def _batches(
 
 
 def _tensors(
-    batch: Sequence[Example], rng: np.random.Generator, whole: bool
+    batch: Sequence[TrainingExample], rng: np.random.Generator, whole: bool
 ) -> tuple[Tensor, Tensor, Tensor]:
     images, maps, weights = [], [], []
     for example in batch:

@@ -9,6 +9,7 @@ from collections import Counter
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
+from aegis_ot.sidecar.overview import runs_overview
 from aegis_ot.sidecar.store import Store
 
 from .robot import Acknowledged
@@ -79,9 +80,9 @@ def _miscounted(store: Store, url: str, run: str) -> Iterator[str]:
     for number, state in states.items():
         if number not in judged and state not in ("undecided", "abandoned"):
             yield f"delivery {number} has no verdict and counts as {state}"
-    (row,) = [row for row in store.runs() if row["run"] == run]
+    (row,) = [row for row in runs_overview(store) if row["run"] == run]
     counted = sum(state != "abandoned" for state in states.values())
-    if sum(row["wells"].values()) != counted:
+    if sum(wells for state, wells in row["wells"].items() if state != "abandoned") != counted:
         yield f"of {counted} deliveries the list of runs counts {row['wells']}"
 
 

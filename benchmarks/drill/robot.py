@@ -11,7 +11,7 @@ from typing import Any
 from unittest import mock
 
 from aegis_ot.runtime import page_answers
-from aegis_ot.runtime.link import Captured, SidecarLink
+from aegis_ot.runtime.sidecar_client import Acknowledgement, SidecarClient
 from aegis_ot.settings import Settings
 from aegis_ot.vocabulary import Keyframe, Verdict
 from tests.runtime.live import LiveRun
@@ -111,10 +111,10 @@ class Robot:
     def _recorded(self) -> Iterator[None]:
         """Note what the link hears, and move the robot's clock and picture."""
         told = self.told
-        keyframe, verdict = SidecarLink.keyframe, SidecarLink.verdict
-        hold, finish = SidecarLink.report_hold, SidecarLink.finish
+        keyframe, verdict = SidecarClient.keyframe, SidecarClient.verdict
+        hold, finish = SidecarClient.report_hold, SidecarClient.finish
 
-        def sent(link: SidecarLink, frame: Keyframe, *rest: Any) -> Captured:
+        def sent(link: SidecarClient, frame: Keyframe, *rest: Any) -> Acknowledgement:
             told.triggers.setdefault(frame.sequence, time.monotonic())
             self.show(frame)
             ahead = replace(frame, robot_time=frame.robot_time + self.clock_ahead_s)
@@ -122,22 +122,22 @@ class Robot:
             told.keyframes.add(frame.sequence)
             return captured
 
-        def asked(link: SidecarLink, run: str, number: int, *rest: Any) -> Verdict | None:
+        def asked(link: SidecarClient, run: str, number: int, *rest: Any) -> Verdict | None:
             found = verdict(link, run, number, *rest)
             if found is not None:
                 told.verdicts.setdefault(number, found.outcome.value)
             return found
 
-        def held(link: SidecarLink, run: str, body: Any, most: float) -> None:
+        def held(link: SidecarClient, run: str, body: Any, most: float) -> None:
             hold(link, run, body, most)
             told.holds.add(body["trajectory"])
 
-        def ended(link: SidecarLink, run: str, outcome: str, *rest: Any) -> None:
+        def ended(link: SidecarClient, run: str, outcome: str, *rest: Any) -> None:
             finish(link, run, outcome, *rest)
             told.finished = outcome
 
         with mock.patch.multiple(
-            SidecarLink, keyframe=sent, verdict=asked, report_hold=held, finish=ended
+            SidecarClient, keyframe=sent, verdict=asked, report_hold=held, finish=ended
         ):
             yield
 

@@ -25,7 +25,7 @@ from aegis_ot.vision.tips import tip_for
 from aegis_ot_lab.drawing.dataset import SimulatedPlate, typical_volume, write_plates
 from aegis_ot_lab.drawing.plans import REAGENTS, PlannedWell
 
-from .kinds import KINDS, CameraKind, any_kind, any_row, draw_session
+from .kinds import KINDS, LATER_KINDS, CameraKind, any_kind, any_row, draw_session
 from .stage import Lamps
 from .tips import Sleeve
 
@@ -43,7 +43,10 @@ def main() -> None:
 
     parser = argparse.ArgumentParser(prog="python -m scripts.path_traced", description=__doc__)
     parser.add_argument("out", type=Path, help="new or empty folder")
-    parser.add_argument("--kind", action="append", choices=list(KINDS), help="default: all")
+    kinds = {**KINDS, **LATER_KINDS}
+    parser.add_argument(
+        "--kind", action="append", choices=list(kinds), help="default: the first six"
+    )
     parser.add_argument("--plates", type=int, default=4, help="of each kind")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument(
@@ -64,10 +67,12 @@ def main() -> None:
     plates, plan, lamps, cameras, sleeves = [], [], {}, {}, {}
     for name in () if asked.for_detector else asked.kind or KINDS:
         for number in range(asked.plates):
-            plate, light = _plate(name, KINDS[name], number, rng)
+            plate, light = _plate(name, kinds[name], number, rng)
             plan += _wells(len(plates), number, rng)
             plates.append(plate)
             lamps[plate.session.seed] = light
+            if kinds[name].sleeves:
+                sleeves[plate.session.seed] = Sleeve.draw(rng)
             cameras[plate.name] = name
     for number in range(asked.for_detector):
         kind = any_row(rng) if asked.rows else any_kind(rng)

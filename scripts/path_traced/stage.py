@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from aegis_ot.simulation.backdrop import BACK_MM
-from aegis_ot.simulation.session import Colour, Labware, SessionParameters
+from aegis_ot.simulation.session import Colour, SessionLabware, SessionParameters
 
 from .tips import GAMMA
 
@@ -103,9 +103,9 @@ def _sheet(
     return {"type": "rectangle", "to_world": transform(matrix), "bsdf": matt(colour)}
 
 
-def _block(number: int, block: Labware, transform: Any) -> dict[str, Any]:
+def _block(number: int, block: SessionLabware, transform: Any) -> dict[str, Any]:
     """A plate or rack: a box with dark wells on its top."""
-    half = [Labware.WIDTH / 2, Labware.DEPTH / 2, block.height_mm / 2]
+    half = [SessionLabware.WIDTH / 2, SessionLabware.DEPTH / 2, block.height_mm / 2]
     shapes: dict[str, Any] = {
         f"block{number}": {
             "type": "cube",

@@ -2,27 +2,27 @@
 
 from __future__ import annotations
 
-from aegis_ot.account import plate_maps
+from aegis_ot.account import plates_of
 
 from .overviews import delivery, overview, row
 
 
 def cells(*deliveries: dict) -> dict:
-    (plate,) = plate_maps(overview(*deliveries)["trajectories"])
-    return plate.cells
+    (plate,) = plates_of(overview(*deliveries))
+    return plate.wells
 
 
 def test_a_plate_has_the_size_of_the_smallest_that_holds_its_wells() -> None:
-    (plate,) = plate_maps([delivery(0), delivery(3)])
+    (plate,) = plates_of(overview(delivery(0), delivery(3)))
     assert (list(plate.rows), list(plate.columns)) == (["A", "B", "C"], [1, 2, 3, 4])
     assert plate.title == "plate, slot 4"
-    assert {well: cell.state for well, cell in plate.cells.items()} == {"A1": "pass", "A4": "pass"}
+    assert {well: cell.state for well, cell in plate.wells.items()} == {"A1": "pass", "A4": "pass"}
 
 
 def test_a_plate_that_names_its_size_has_it_from_the_first_well() -> None:
     first = delivery(0)
     first["keyframes"][-1]["destinations"][0]["label"] = "Corning 96 Well Plate"
-    (plate,) = plate_maps([first])
+    (plate,) = plates_of(overview(first))
     assert (len(plate.rows), len(plate.columns)) == (8, 12)
 
 

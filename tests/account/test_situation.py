@@ -35,7 +35,8 @@ def test_a_robot_that_told_of_a_pause_stands_until_it_moves() -> None:
 def test_what_a_person_told_the_robot_is_shown_until_it_has_done_it() -> None:
     action = {"trajectory": 0, "action": "resume", "by": "Ada", "note": "", "at": 105.0}
     (paused,) = situations(overview(delivery(0, "fail", holds=[hold(0)]), actions=[action]), NOW)
-    assert "Ada told the robot to go on" in paused.text
+    assert paused.answered == "Ada answered: continue. The robot has not moved yet."
+    assert not paused.answers, "whoever comes later does not answer again"
 
 
 def test_a_pause_without_a_verdict_can_only_be_resumed_or_stopped() -> None:

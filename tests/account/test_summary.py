@@ -19,7 +19,7 @@ def test_counts_flagged_wells_holds_and_latency() -> None:
     )
     account = run_account(run)
     json.dumps(account)
-    assert account["counts"] == {"pass": 2, "fail": 1, "wells": 3}
+    assert account["counts"] == {"pass": 2, "fail": 1, "wells": 3, "deliveries": 3}
     assert account["flagged"] == [1, 2]
     assert account["frames"] == "simulated"
     assert [hold["well"] for hold in account["holds"]] == ["A2 of plate (slot 4)"] * 2
@@ -32,13 +32,15 @@ def test_counts_flagged_wells_holds_and_latency() -> None:
 
 def test_a_run_without_deliveries_has_an_account() -> None:
     account = run_account(overview())
-    assert account["counts"] == {"wells": 0}
+    assert account["counts"] == {"wells": 0, "deliveries": 0}
     assert account["latency"]["hold_s"]["median"] is None
 
 
 def test_wells_that_the_camera_did_not_see_are_named_and_do_not_count_as_passed() -> None:
     account = run_account(overview(row(0, "uuuuuu.."), row(1, "uuuuuuuu")))
-    assert account["counts"] == {"pass": 1, "unobserved": 1, "wells": 2}
+    assert account["counts"] == {
+        "pass": 2, "unobserved": 14, "wells": 16, "deliveries": 2,
+    }  # fmt: skip
     assert account["unobserved"] == [
         *(f"{letter}1" for letter in "ABCDEF"), *(f"{letter}2" for letter in "ABCDEFGH"),
     ]  # fmt: skip

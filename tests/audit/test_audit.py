@@ -16,8 +16,8 @@ from aegis_ot.reports.audit_html import audit_html
 from aegis_ot.sidecar import SidecarConfig, make_detector
 from aegis_ot.sidecar.overview import run_overview
 from aegis_ot.sidecar.store import Store
-from aegis_ot.sidecar.wire import Decision, Hold
-from aegis_ot.vision.gates import Case, GateDecision
+from aegis_ot.sidecar.wire import Decision, HoldReport
+from aegis_ot.vision.gates import GateDecision, GateInput
 from aegis_ot.vision.gates.case import Cost
 from aegis_ot.vocabulary import FailureType, Gate, KeyframeKind, Outcome
 from tests.audit.conftest import STRUCK, pass_silently
@@ -36,7 +36,7 @@ class Model:
         self.fails, self.calls = fails, calls
         self.seen: list[str] = []
 
-    def examine(self, case: Case) -> GateDecision:
+    def examine(self, case: GateInput) -> GateDecision:
         if len(self.seen) == self.calls:
             return GateDecision(Outcome.UNDECIDED, self.gate, "spent")
         self.seen.append(case.sample.well)
@@ -113,8 +113,11 @@ def test_what_a_person_found_right_is_listed_and_alarms_nobody(answer: str, tmp_
             "WHERE trajectory = ?",
             (0,),
         )
-        store.add_hold("run-1", Hold(number=0, trajectory=0, seconds=0.1, resolution="verdict",
-                                     policy="pause", paused_s=9.0, answered="robot"))  # fmt: skip
+        hold = HoldReport(
+            number=0, trajectory=0, seconds=0.1, resolution="verdict", policy="pause",
+            paused_s=9.0, answered="robot",
+        )  # fmt: skip
+        store.add_hold("run-1", hold)
     audit = audit_run(store, "run-1", make_detector(), world_model())
     first = audit.suspects[0]
     assert (first.kind, first.stands_out) == ("no_liquid", answer == "none")

@@ -12,10 +12,10 @@ import pytest
 from aegis_ot.checking import CheckSettings, Project
 from aegis_ot.checking.corpus import check_corpus
 from aegis_ot.checking.corpus_changes import changes
-from aegis_ot.checking.corpus_table import Results, Row, Told, findings_path, read_results
+from aegis_ot.checking.corpus_table import CorpusRow, Results, Told, findings_path, read_results
 from aegis_ot.checking.shelf import Shelved, find_protocols, sample
 from aegis_ot.errors import ConfigurationError
-from aegis_ot.preflight import load_database
+from aegis_ot.preflight import load_rules
 
 HEAD = 'metadata = {"apiLevel": "2.15"}\n\n\ndef run(protocol):\n'
 
@@ -111,14 +111,14 @@ def shelf(tmp_path: Path) -> Path:
 
 def projects(protocols: Sequence[Shelved]) -> list[Project]:
     settings = CheckSettings(timeout_s=2.0, definitions=lambda _: ())
-    return [Project([one.path for one in protocols], settings, load_database())]
+    return [Project([one.path for one in protocols], settings, load_rules())]
 
 
 def judge(folder: Path, table: Path, jobs: int = 1) -> tuple[Results, list[str]]:
     """The results, and the files that were judged anew."""
     anew: list[str] = []
 
-    def done(row: Row, kept: bool) -> None:
+    def done(row: CorpusRow, kept: bool) -> None:
         if not kept:
             anew.append(Path(row.file).name)
 
@@ -177,11 +177,11 @@ def test_an_interrupted_run_keeps_what_was_done(tmp_path: Path) -> None:
     protocols = find_protocols([folder])
     anew: list[str] = []
 
-    def stop(row: Row, kept: bool) -> None:
+    def stop(row: CorpusRow, kept: bool) -> None:
         if row.file.endswith("b.py"):
             raise KeyboardInterrupt
 
-    def note(row: Row, kept: bool) -> None:
+    def note(row: CorpusRow, kept: bool) -> None:
         if not kept:
             anew.append(Path(row.file).name)
 
@@ -207,6 +207,16 @@ def test_rows_of_other_folders_stay(tmp_path: Path) -> None:
     judge(one.parent, table)
     judge(two.parent, table)
     assert [Path(file).name for file in read_results(table)] == ["a.py", "b.py"]
+
+
+def test_labware_that_a_designer_protocol_carries_is_found(tmp_path: Path) -> None:
+    plain = {**DEFINITION, "namespace": "opentrons", "parameters": {"loadName": "plain"}}
+    carried = {"custom_beta/our_trough/1": DEFINITION, "opentrons/plain/1": plain}
+    write(tmp_path / "designed.json", {"schemaVersion": 8, "labwareDefinitions": carried})
+    write(tmp_path / "odd.json", {"labwareDefinitions": ["loadName", "wells"]})
+    write(tmp_path / "protocol.py", OWN_LABWARE + "    # plain\n")
+    (found,) = [p for p in find_protocols([tmp_path]) if p.path.suffix == ".py"]
+    assert list(found.labware) == ["custom_beta/our_trough/1"]
 
 
 def test_of_two_definitions_of_one_name_the_nearest_is_taken(tmp_path: Path) -> None:
@@ -250,7 +260,7 @@ def told(rule: str, severity: str, well: str, line: int, message: str = "Bad.") 
     return Told("a.py", rule, severity, (well,), (line,), message)
 
 
-ROW = Row("a.py", "fail", "pcr", "PCR-2:error*1", 1)
+ROW = CorpusRow("a.py", "fail", "pcr", "PCR-2:error*1", 1)
 
 
 @pytest.mark.parametrize(
@@ -266,7 +276,7 @@ ROW = Row("a.py", "fail", "pcr", "PCR-2:error*1", 1)
     ids=["words", "time", "well", "severity", "not kept", "family"],
 )
 def test_a_change_is_of_verdict_family_or_finding_not_of_words_or_time(
-    after: Row, finding: Told | None, changed: bool
+    after: CorpusRow, finding: Told | None, changed: bool
 ) -> None:
     before: Results = {"a.py": (ROW, (told("PCR-2", "error", "1:H12", 7),))}
     now: Results = {"a.py": (after, (finding,) if finding else ())}

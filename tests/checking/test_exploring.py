@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from aegis_ot.checking import CheckedProtocol, CheckSettings, check_files
-from aegis_ot.preflight import load_database
+from aegis_ot.preflight import load_rules
 from aegis_ot.vocabulary import VerdictWord
 
 PROTOCOL = """
@@ -48,7 +48,7 @@ def explored(tmp_path_factory: pytest.TempPathFactory) -> dict[str, CheckedProto
         files.append(folder / name)
         files[-1].write_text(PROTOCOL.replace("{bad}", bad), encoding="utf-8")
     settings = CheckSettings(all_parameters=True, timeout_s=60)
-    run = check_files(files, settings, load_database())
+    run = check_files(files, settings, load_rules())
     return {Path(checked.file).name: checked for checked in run.protocols}
 
 

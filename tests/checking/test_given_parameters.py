@@ -9,7 +9,7 @@ import pytest
 
 from aegis_ot.checking import CheckRun, CheckSettings, check_files
 from aegis_ot.errors import RehearsalError
-from aegis_ot.preflight import load_database
+from aegis_ot.preflight import load_rules
 from aegis_ot.preflight.rehearsal import Script, record
 
 DECLARES = """
@@ -34,7 +34,7 @@ def check(folder: Path, texts: list[str], **values: Any) -> CheckRun:
     files = [folder / f"p{number}.py" for number in range(len(texts))]
     for file, text in zip(files, texts, strict=True):
         file.write_text(text, encoding="utf-8")
-    return check_files(files, CheckSettings(timeout_s=60, **values), load_database())
+    return check_files(files, CheckSettings(timeout_s=60, **values), load_rules())
 
 
 @pytest.mark.parametrize(

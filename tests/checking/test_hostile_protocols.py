@@ -9,7 +9,8 @@ import pytest
 
 from aegis_ot.checking import CheckedProtocol, CheckSettings, check_files, rehearser
 from aegis_ot.checking.child import CAN_FORK
-from aegis_ot.preflight import load_database
+from aegis_ot.checking.link import LinkAnswer
+from aegis_ot.preflight import load_rules
 from aegis_ot.vocabulary import VerdictWord
 
 HEAD = 'metadata = {"apiLevel": "2.15"}\n'
@@ -78,7 +79,7 @@ HOSTILE: dict[str, tuple[str, int | None, str]] = {
     "newer.py": (
         '\nmetadata = {"apiLevel": "2.99"}\ndef run(p):\n    pass\n',
         2,
-        "is written for API version 2.99, and",
+        "apiLevel 2.99, which no engine that this aegis-ot knows takes",
     ),
     "syntax.py": (HEAD + "def run(p:\n    pass\n", 2, "not valid Python"),
     "deep.py": (HEAD + f"x = {'-' * 200_000}1\ndef run(p): ...\n", None, "nested too deeply"),
@@ -153,7 +154,7 @@ def test_what_a_protocol_does_to_its_rehearser_spoils_its_own_result_only(
     files = [tmp_path / name for name in ("before.py", "writes.py", "after.py", "last.py")]
     for file in files:
         file.write_text(text if file.stem == "writes" else AFTER, encoding="utf-8")
-    run = check_files(files, CheckSettings(timeout_s=20), load_database())
+    run = check_files(files, CheckSettings(timeout_s=20), load_rules())
     words = [protocol.verdict for protocol in run.protocols]
     assert words == [VerdictWord.PASS, VerdictWord.ERROR, VerdictWord.PASS, VerdictWord.PASS]
 
@@ -165,12 +166,26 @@ def test_where_there_is_no_fork_it_spoils_no_other_result_either(
         "import main", "import main\nmain.__globals__['CAN_FORK'] = False"
     )
     monkeypatch.setattr(rehearser, "_MAIN", alone)
+    monkeypatch.setenv("AEGIS_OT_WARM", "0")  # nor does a process outlive its command there
     forges = WRITES.replace('(b"junk", forged)', "(forged,)")
     for name, text in [("a", WRITES), ("b", AFTER), ("c", forges), ("d", AFTER)]:
         (tmp_path / f"{name}.py").write_text(text, encoding="utf-8")
-    run = check_files(sorted(tmp_path.iterdir()), CheckSettings(timeout_s=20), load_database())
+    run = check_files(sorted(tmp_path.iterdir()), CheckSettings(timeout_s=20), load_rules())
     words = [protocol.verdict for protocol in run.protocols]
     assert words == [VerdictWord.ERROR, VerdictWord.PASS, VerdictWord.ERROR, VerdictWord.PASS]
+
+
+def test_an_installation_that_changes_all_the_time_is_told(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "p.py").write_text(AFTER, encoding="utf-8")
+    answers = {True: LinkAnswer("ready"), False: LinkAnswer(stale=True)}
+    monkeypatch.setattr(
+        rehearser.Rehearser, "_ask", lambda self, task, limit_s: answers[task is None]
+    )
+    (protocol,) = check_files([tmp_path / "p.py"], CheckSettings(), load_rules()).protocols
+    assert protocol.problem is not None
+    assert "changed just now" in protocol.problem.message
 
 
 def test_a_variable_that_a_protocol_needs_is_named_and_passed_on(
@@ -179,12 +194,12 @@ def test_a_variable_that_a_protocol_needs_is_named_and_passed_on(
     monkeypatch.setenv("PLATE_KEY", "A1")
     file = tmp_path / "p.py"
     file.write_text(HEAD + "import os\ndef run(p):\n    os.environ['PLATE_KEY']\n", "utf-8")
-    (protocol,) = check_files([file], CheckSettings(), load_database()).protocols
+    (protocol,) = check_files([file], CheckSettings(), load_rules()).protocols
     assert protocol.problem is not None
     assert "AEGIS_OT_PROTOCOL_ENV=PLATE_KEY" in protocol.problem.message
     assert protocol.problem.line == 4
     monkeypatch.setenv("AEGIS_OT_PROTOCOL_ENV", "OTHER, PLATE_KEY")
-    (protocol,) = check_files([file], CheckSettings(), load_database()).protocols
+    (protocol,) = check_files([file], CheckSettings(), load_rules()).protocols
     assert protocol.problem is None
 
 
@@ -195,7 +210,7 @@ def test_a_protocol_gets_no_keys(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
     text = f"import os\ndef run(p):\n    assert not set({secret}) & set(os.environ)\n"
     text += "    assert os.environ['OT_API_CONFIG_DIR_OF_MINE'] and os.environ['PATH']\n"
     (tmp_path / "p.py").write_text(HEAD + text, encoding="utf-8")
-    (protocol,) = check_files([tmp_path / "p.py"], CheckSettings(), load_database()).protocols
+    (protocol,) = check_files([tmp_path / "p.py"], CheckSettings(), load_rules()).protocols
     assert protocol.problem is None
 
 
@@ -214,7 +229,7 @@ def checked(tmp_path_factory: pytest.TempPathFactory) -> dict[str, CheckedProtoc
         good = folder / f"good{n}.py"
         good.write_text(GOOD, encoding="utf-8")
         files.insert(n, good)
-    run = check_files(files, CheckSettings(timeout_s=1.5), load_database())
+    run = check_files(files, CheckSettings(timeout_s=1.5), load_rules())
     assert run.exit_code == 2
     return {Path(protocol.file).name: protocol for protocol in run.protocols}
 
@@ -248,7 +263,7 @@ def test_what_is_no_text_of_a_protocol_is_told_apart(
 ) -> None:
     file = tmp_path / "p.py"
     file.write_bytes(content)
-    (protocol,) = check_files([file], CheckSettings(), load_database()).protocols
+    (protocol,) = check_files([file], CheckSettings(), load_rules()).protocols
     assert protocol.verdict is VerdictWord.ERROR
     assert protocol.problem is not None
     assert words in protocol.problem.message
@@ -259,7 +274,7 @@ def test_what_is_no_text_of_a_protocol_is_told_apart(
 def test_a_pipe_is_refused_and_not_waited_for(tmp_path: Path) -> None:
     pipe = tmp_path / "pipe.py"
     os.mkfifo(pipe)
-    (protocol,) = check_files([pipe], CheckSettings(), load_database()).protocols
+    (protocol,) = check_files([pipe], CheckSettings(), load_rules()).protocols
     assert protocol.problem is not None
     assert "no regular file" in protocol.problem.message
 
@@ -268,7 +283,7 @@ def test_a_module_beside_the_protocol_is_found_for_the_rehearsal_and_told(tmp_pa
     (tmp_path / "my_layout.py").write_text("WELL = 'A1'\n", encoding="utf-8")
     file = tmp_path / "p.py"
     file.write_text(HEAD + "from my_layout import WELL\ndef run(p): ...\n", encoding="utf-8")
-    (protocol,) = check_files([file], CheckSettings(), load_database()).protocols
+    (protocol,) = check_files([file], CheckSettings(), load_rules()).protocols
     assert protocol.problem is None
     assert protocol.modules == {"my_layout": "my_layout.py"}
 
@@ -289,5 +304,5 @@ def test_a_folder_of_modules_named_like_the_library_does_no_harm(
     (tmp_path / "json.py").write_text("raise RuntimeError('the wrong json')\n", encoding="utf-8")
     (tmp_path / "good.py").write_text(GOOD, encoding="utf-8")
     monkeypatch.chdir(tmp_path)
-    run = check_files([Path("good.py")], CheckSettings(timeout_s=60), load_database())
+    run = check_files([Path("good.py")], CheckSettings(timeout_s=60), load_rules())
     assert run.exit_code == 0

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from aegis_ot.checking import CheckedProtocol, CheckSettings, check_files
 from aegis_ot.checking.roles_template import roles_template
-from aegis_ot.preflight import load_database
+from aegis_ot.preflight import load_rules
 from aegis_ot.vocabulary import VerdictWord
 
 TWO_ASSAYS = """
@@ -50,7 +50,7 @@ def run(protocol):
 def _checked(folder: Path, text: str) -> CheckedProtocol:
     path = folder / "protocol.py"
     path.write_text(text)
-    return check_files([path], CheckSettings(timeout_s=60), load_database()).protocols[0]
+    return check_files([path], CheckSettings(timeout_s=60), load_rules()).protocols[0]
 
 
 def _pasted(text: str, template: str) -> str:
@@ -64,7 +64,7 @@ def _told(checked: CheckedProtocol) -> list[tuple]:
 def test_what_was_found_is_found_with_the_roles_of_two_assays_pasted(tmp_path: Path) -> None:
     before = _checked(tmp_path, TWO_ASSAYS)
     assert before.verdict is VerdictWord.FAIL
-    template = roles_template(before, load_database())
+    template = roles_template(before, load_rules())
     assert "assay=" not in template
     assert '"ntc": ["3:H12"],  # no-template control: name `ntc` at line 12' in template
     assert '"series": ["4:A2-A6,A1"]' in template
@@ -75,7 +75,7 @@ def test_what_was_found_is_found_with_the_roles_of_two_assays_pasted(tmp_path: P
 def test_what_only_follows_is_not_written_as_if_it_were_known(tmp_path: Path) -> None:
     before = _checked(tmp_path, NOTHING_NAMED)
     assert before.verdict is VerdictWord.WARN
-    template = roles_template(before, load_database())
+    template = roles_template(before, load_rules())
     assert '        # "source": [],  # source: which wells?' in template
     assert "#   2:A1-D1" in template
     after = _checked(tmp_path, _pasted(NOTHING_NAMED, template))
@@ -106,6 +106,6 @@ def test_what_is_wrong_beside_a_series_is_told_with_the_roles_pasted_too(tmp_pat
     before = _checked(tmp_path, BESIDE_A_SERIES)
     assert {one.rule for one in before.findings} == {"GEN-1"}
     assert 17 in before.findings[0].lines
-    template = roles_template(before, load_database())
+    template = roles_template(before, load_rules())
     after = _checked(tmp_path, _pasted(BESIDE_A_SERIES, template))
     assert _told(after) == _told(before)

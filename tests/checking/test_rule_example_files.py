@@ -12,28 +12,28 @@ import pytest
 from aegis_ot.checking.rule_example_files import examples_of
 from aegis_ot.checking.rule_examples import protocol_text, run_examples
 from aegis_ot.errors import RuleError
-from aegis_ot.preflight import load_database
-from aegis_ot.preflight.database import load_family
-from aegis_ot.preflight.rules import Database, Example
+from aegis_ot.preflight import RuleSet, load_rules
+from aegis_ot.preflight.rule_set import load_family
+from aegis_ot.preflight.rules import Example
 
-ELISA = Path(__file__).parents[2] / "examples" / "rules" / "elisa.json"
+OWN = Path(__file__).parents[2] / "examples" / "rules" / "luciferase.json"
 
 
 @pytest.fixture
-def beside(tmp_path: Path) -> Callable[[str], Database]:
-    """A database of one family with this text in the file of examples beside it."""
+def beside(tmp_path: Path) -> Callable[[str], RuleSet]:
+    """The rules of one family with this text in the file of examples beside it."""
 
-    def write(text: str) -> Database:
-        shutil.copy(ELISA, tmp_path / "mine.json")
+    def write(text: str) -> RuleSet:
+        shutil.copy(OWN, tmp_path / "mine.json")
         (tmp_path / "mine.examples.py").write_text(text, encoding="utf-8")
         family = load_family(tmp_path / "mine.json")
-        return Database((family,), load_database().common)
+        return RuleSet((family,), load_rules().common)
 
     return write
 
 
 def test_every_shipped_rule_has_four_of_each() -> None:
-    for family in load_database().families:
+    for family in load_rules().families:
         # Handling needs no names and roles, which the others' examples vary.
         least = 1 if family.family == "handling" else 4
         for rule, examples in examples_of(family).items():
@@ -44,35 +44,35 @@ def test_every_shipped_rule_has_four_of_each() -> None:
 
 
 def test_a_deck_stands_before_what_follows_it_up_to_the_next(
-    beside: Callable[[str], Database],
+    beside: Callable[[str], RuleSet],
 ) -> None:
-    database = beside(
+    rule_set = beside(
         '"""What it is."""\n\n# deck\na = tubes["A1"]\n\n'
-        "# ELISA-1, ELISA-2 passes: one\np20.transfer(1, a, a)\n\n\n"
-        "# deck\nb = 1\n# ELISA-2, ELISA-1 warns: two\n\n# a comment\np20.home()\n"
+        "# LUC-1, LUC-2 passes: one\np20.transfer(1, a, a)\n\n\n"
+        "# deck\nb = 1\n# LUC-2, LUC-1 warns: two\n\n# a comment\np20.home()\n"
     )
-    inline = {rule.id: rule.examples for rule in database.families[0].rules}
-    examples = examples_of(database.families[0])
-    passing = examples["ELISA-1"].passing[-1]
-    assert passing == examples["ELISA-2"].passing[-1]
+    inline = {rule.id: rule.examples for rule in rule_set.families[0].rules}
+    examples = examples_of(rule_set.families[0])
+    passing = examples["LUC-1"].passing[-1]
+    assert passing == examples["LUC-2"].passing[-1]
     assert passing.code == ('a = tubes["A1"]', "p20.transfer(1, a, a)")
-    failing = examples["ELISA-2"].failing[-1]
+    failing = examples["LUC-2"].failing[-1]
     assert failing == Example(
-        "two", ("b = 1", "# a comment", "p20.home()"), also=("ELISA-1",), severity="warning"
+        "two", ("b = 1", "# a comment", "p20.home()"), also=("LUC-1",), severity="warning"
     )
-    assert examples["ELISA-1"].failing == inline["ELISA-1"].failing
-    assert examples["ELISA-1"].passing[:-1] == inline["ELISA-1"].passing
+    assert examples["LUC-1"].failing == inline["LUC-1"].failing
+    assert examples["LUC-1"].passing[:-1] == inline["LUC-1"].passing
 
 
 @pytest.mark.parametrize(
     ("heading", "words"),
     [
         ("# PCR-1 passes: not of this family", "line 2: there is no rule PCR-1 there"),
-        ("# ELISA-1 succeeds: well", "line 2: a snippet passes, fails or warns"),
+        ("# LUC-1 succeeds: well", "line 2: a snippet passes, fails or warns"),
     ],
 )
 def test_a_wrong_heading_is_told_with_its_line(
-    heading: str, words: str, beside: Callable[[str], Database]
+    heading: str, words: str, beside: Callable[[str], RuleSet]
 ) -> None:
     with pytest.raises(RuleError, match=f"mine.examples.py, {words}"):
         examples_of(beside(f"\n{heading}\n").families[0])
@@ -108,14 +108,14 @@ FULL = 'p300.transfer(200, tubes["A1"], plate["A1"])\n'
 )
 def test_an_example_that_breaks_its_word_is_told(text: str, problem: str, tmp_path: Path) -> None:
     (tmp_path / "generic.examples.py").write_text(text, encoding="utf-8")
-    shipped = next(family for family in load_database().families if family.family == "generic")
+    shipped = next(family for family in load_rules().families if family.family == "generic")
     generic = dataclasses.replace(
         shipped,
         path=str(tmp_path / "generic.json"),
         rules=tuple(rule for rule in shipped.rules if rule.id == "GEN-3"),
     )
-    database = Database((generic,), load_database().common)
-    bad = [result for result in run_examples(database) if not result.ok]
+    rule_set = RuleSet((generic,), load_rules().common)
+    bad = [result for result in run_examples(rule_set) if not result.ok]
     if not problem:
         assert bad == []
         return

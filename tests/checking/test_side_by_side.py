@@ -15,7 +15,7 @@ import pytest
 
 from aegis_ot.checking import CheckSettings, check_files
 from aegis_ot.checking.side_by_side import LazyRehearser, check_each
-from aegis_ot.preflight import load_database
+from aegis_ot.preflight import load_rules
 
 EMPTY = 'metadata = {"apiLevel": "2.15"}\n\n\ndef run(protocol):\n    pass\n'
 ENDLESS = """import pathlib
@@ -64,7 +64,7 @@ def test_two_jobs_give_what_one_gives(tmp_path: Path) -> None:
         (tmp_path / name).write_text(text, encoding="utf-8")
         files.append(tmp_path / name)
     files.append(tmp_path / "missing.py")
-    run = check_files(files, CheckSettings(jobs=2), load_database())
+    run = check_files(files, CheckSettings(jobs=2), load_rules())
     told = [
         (Path(c.file).name, c.verdict.value, c.problem and c.problem.line) for c in run.protocols
     ]
@@ -113,7 +113,7 @@ def test_an_interruption_ends_every_rehearsal_and_is_told_in_one_line(tmp_path: 
     process = subprocess.Popen(
         [sys.executable, "-c", command, "check", "p0.py", "p1.py", "--jobs", "2"],
         cwd=tmp_path,
-        env={**os.environ, "TMPDIR": str(scratch)},
+        env={**os.environ, "TMPDIR": str(scratch), "AEGIS_OT_WARM": "0"},
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,

@@ -11,7 +11,7 @@ from aegis_ot.checking.files import read_labware
 from aegis_ot.checking.shelf import protocols_named
 from aegis_ot.checking.surroundings import data_named, root_of, surroundings_of
 from aegis_ot.errors import ConfigurationError
-from aegis_ot.preflight import load_database
+from aegis_ot.preflight import load_rules
 
 from .test_corpus import DEFINITION, HEAD, OWN_LABWARE, write
 
@@ -32,6 +32,9 @@ def build(repo: Path) -> None:
     write(repo / "lab" / "above.py", "import shared.wells\nWELL = shared.wells.WELL\n")
     write(repo / "labware" / "trough.json", DEFINITION)
     write(repo / "labware" / "note.json", {"parameters": {"loadName": "our_trough"}})
+    write(repo / "data" / "well.txt", "B1")
+    write(repo / "data" / "twice.csv", "1")
+    write(repo / "lib" / "twice.csv", "2")
     write(repo.parent / "stranger.py", "WELL = 'B1'\n")
     write(protocols / "beside.py", "from above import WELL\n")
     write(protocols / "json.py", "raise RuntimeError('not the library')\n")
@@ -47,6 +50,9 @@ def build(repo: Path) -> None:
         "nowhere": OWN_LABWARE.replace("our_trough", "no_trough"),
         "nowhere_2_13": OWN_LABWARE.replace("our_trough", "no_trough").replace("2.15", "2.13"),
         "no_file": HEAD + '    open("missing.csv")\n',
+        "elsewhere": HEAD + MOVES.replace("[WELL]", '[open("/Users/x/far/well.txt").read()]'),
+        "windows": HEAD + '    open(r"C:\\lab\\well.txt")\n' + MOVES.replace("WELL", '"B1"'),
+        "two_of_it": HEAD + '    open("/Users/x/twice.csv")\n',
         "late": HEAD + "    while True:\n        pass\n",
     }.items():
         write(protocols / f"{name}.py", text)
@@ -67,7 +73,7 @@ def repo(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def checked(repo: Path) -> dict[str, CheckedProtocol]:
     """All of them, checked in one call."""
     files = protocols_named([repo])
-    run = check_files(files, CheckSettings(timeout_s=3.0), load_database())
+    run = check_files(files, CheckSettings(timeout_s=3.0), load_rules())
     return {Path(one.file).stem: one for one in run.protocols}
 
 
@@ -125,6 +131,20 @@ def test_a_file_that_is_not_there_says_where_the_rehearsal_runs(
 ) -> None:
     assert refusal(checked["no_file"]).startswith("it reads missing.csv, which is not there")
     assert checked["no_file"].problem.line == 5  # type: ignore[union-attr]
+
+
+@pytest.mark.parametrize("name", ["elsewhere", "windows"])
+def test_a_file_of_the_repository_is_read_in_the_place_of_one_that_is_not_there(
+    checked: dict[str, CheckedProtocol], name: str
+) -> None:
+    assert checked[name].report is not None
+    (told,) = (one for one in checked[name].remarks if "well.txt" in one.message)
+    assert "../../data/well.txt" in told.message
+    assert told.line
+
+
+def test_of_two_files_of_that_name_none_is_read(checked: dict[str, CheckedProtocol]) -> None:
+    assert "/Users/x/twice.csv, which is not there" in refusal(checked["two_of_it"])
 
 
 def test_a_late_protocol_is_told_with_its_line_and_the_option(

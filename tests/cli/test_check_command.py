@@ -140,20 +140,20 @@ def test_each_protocol_is_judged_as_its_own_project_says(aegis: Command, tmp_pat
     pytest.importorskip("tomllib")
     for name, table in (
         ("strict", ""),
-        ("lenient", 'ignore = ["PCR-3"]\nrules = ["elisa.json"]\n'),
+        ("lenient", 'ignore = ["PCR-3"]\nrules = ["luciferase.json"]\n'),
     ):
         protocol(tmp_path / name / "bad.py", tips="once")
         config = tmp_path / name / "pyproject.toml"
         config.write_text(f"[tool.aegis-ot]\n{table}", encoding="utf-8")
-    (tmp_path / "lenient" / "elisa.json").write_bytes(SIXTH.read_bytes())
+    (tmp_path / "lenient" / "luciferase.json").write_bytes(SIXTH.read_bytes())
     (tmp_path / "lenient" / "plate.py").write_text(PLATE, encoding="utf-8")
     files = ("lenient/plate.py", "strict/bad.py", "lenient/bad.py")
     result = aegis("check", *files, "-f", "json")
     found = json.loads(result.out)["protocols"]
     assert [entry["file"] for entry in found] == list(files)
     rules = [[finding["rule"] for finding in entry["findings"]] for entry in found]
-    assert rules == [["ELISA-2"], ["PCR-3"], []]
-    assert "ELISA-2 fresh-tip-per-sample" in aegis("check", *files).out
+    assert rules == [["LUC-2"], ["PCR-3"], []]
+    assert "LUC-2 fresh-tip-per-sample" in aegis("check", *files).out
     config.write_text('[tool.aegis-ot]\nignore = ["PCR-33"]\n', encoding="utf-8")
     refused = aegis("check", *files)
     assert refused.err.startswith(
@@ -161,18 +161,18 @@ def test_each_protocol_is_judged_as_its_own_project_says(aegis: Command, tmp_pat
     )
 
 
-SIXTH = Path(__file__).parents[2] / "examples" / "rules" / "elisa.json"
+SIXTH = Path(__file__).parents[2] / "examples" / "rules" / "luciferase.json"
 PLATE = """
-metadata = {"apiLevel": "2.15", "protocolName": "Sandwich ELISA"}
+metadata = {"apiLevel": "2.15", "protocolName": "Luciferase reporter assay"}
 
 
 def run(protocol):
     tips = protocol.load_labware("opentrons_96_tiprack_300ul", 1)
-    elisa_plate = protocol.load_labware("corning_96_wellplate_360ul_flat", 2)
+    luciferase_plate = protocol.load_labware("corning_96_wellplate_360ul_flat", 2)
     tubes = protocol.load_labware("opentrons_24_tuberack_nest_1.5ml_snapcap", 3)
     p300 = protocol.load_instrument("p300_single_gen2", "left", [tips])
-    serum_samples = tubes.rows()[0][:3]
-    p300.transfer(50, serum_samples, elisa_plate.columns()[0][:3], new_tip="once")
+    cell_samples = tubes.rows()[0][:3]
+    p300.transfer(50, cell_samples, luciferase_plate.columns()[0][:3], new_tip="once")
 """
 
 
@@ -180,15 +180,15 @@ def test_a_family_of_ones_own_is_a_file(aegis: Command, tmp_path: Path) -> None:
     (tmp_path / "plate.py").write_text(PLATE, encoding="utf-8")
     result = aegis("check", "plate.py", "--rules", SIXTH, "-f", "json")
     (entry,) = json.loads(result.out)["protocols"]
-    assert (result.code, entry["family"]) == (1, "elisa")
-    assert [finding["rule"] for finding in entry["findings"]] == ["ELISA-2"]
-    assert {undecided["rule"] for undecided in entry["undecided"]} == {"ELISA-1", "ELISA-3"}
-    assert "ELISA-2" in aegis("explain", "elisa-2", "--rules", SIXTH).out
+    assert (result.code, entry["family"]) == (1, "luciferase")
+    assert [finding["rule"] for finding in entry["findings"]] == ["LUC-2"]
+    assert {undecided["rule"] for undecided in entry["undecided"]} == {"LUC-1", "LUC-3"}
+    assert "LUC-2" in aegis("explain", "luc-2", "--rules", SIXTH).out
 
 
 WRONG: list[tuple[list[str], str]] = [
-    (["check"], "Missing argument"),
-    (["check", "good.py", "--format", "xml"], "'xml' is not one of text, json"),
+    (["check"], "Name protocols, folders, or a run"),
+    (["check", "good.py", "--format", "xml"], "'xml' is not one of text, line, json"),
     (["check", "good.py", "--timeout", "soon"], "--timeout"),
     (["check", "good.py", "--timeout", "0"], "greater than 0"),
     (["check", "good.py", "--timeout", "nan"], "greater than 0"),
@@ -217,7 +217,7 @@ WRONG: list[tuple[list[str], str]] = [
     (["evaluate", "layer1", "nowhere"], "there is no such folder"),
     (["evaluate", "layer1", "."], "holds no labels.json"),
     (["evaluate", "layer1", ".", "--config", "magic"], "'magic' is not one of"),
-    (["evaluate", "layer1", ".", "--seed", "-1"], "greater than or equal to 0"),
+    (["evaluate", "layer1", ".", "--seed", "-1"], "-1 is not in the range"),
 ]
 
 
@@ -268,7 +268,7 @@ UNREADABLE: list[tuple[str, bytes | None, str]] = [
     ("empty.py", b" \n", "is empty"),
     ("binary.py", b"\x7fELF\x02\xff\xfe", "is a binary file"),
     ("nul.py", b"def run(p):\n\0", "is a binary file"),
-    ("protocol.json", b"{}", "only Python protocols"),
+    ("protocol.json", b"{}", "neither of Protocol Designer nor an analysis"),
     ("bundle.zip", b"PK", "is a bundle"),
 ]
 

@@ -13,7 +13,7 @@ def test_a_seed_below_nought_is_refused_before_anything_runs(aegis):
     result = aegis("simulate", "examples/demo/hello_guard.py", "--seed", "-1")
     assert result.code == 2
     assert "--seed" in result.err
-    assert "greater than or equal to 0" in result.err
+    assert "-1 is not in the range" in result.err
 
 
 def test_one_fault_in_every_well_of_a_liquid_does_not_pass_a_dry_run(aegis):

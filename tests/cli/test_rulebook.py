@@ -3,7 +3,7 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-from aegis_ot.preflight.database import shipped_rules
+from aegis_ot.preflight.rule_set import shipped_rules
 
 from .commands import Command
 
@@ -15,10 +15,10 @@ def test_explain_tells_why_and_how_to_mend(aegis: Command) -> None:
         assert words in result.out
 
 
-def test_the_list_has_the_28_rules(aegis: Command) -> None:
+def test_the_list_has_the_39_rules(aegis: Command) -> None:
     rules = json.loads(aegis("rules", "list", "--format", "json").out)["rules"]
-    assert len(rules) == 28
-    assert "28 rules in 6 families" in aegis("rules", "list").out
+    assert len(rules) == 39
+    assert "39 rules in 8 families" in aegis("rules", "list").out
 
 
 def test_docs_are_written_and_checked(aegis: Command, tmp_path: Path) -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import time
 from pathlib import Path
 
 import pytest
@@ -93,11 +92,9 @@ def test_the_doctor_changes_nothing(aegis: Command, tmp_path: Path) -> None:
 
 
 def test_the_doctor_says_what_is_wrong_and_what_to_do(aegis: Command, tmp_path: Path) -> None:
-    begun = time.monotonic()
     said = aegis("doctor", "--camera", "folder:/nowhere", "--data", tmp_path / "d", "--port", 1,
                  "--robot", "http://127.0.0.1:9")  # fmt: skip
     assert said.code == 2
     assert "camera: " in said.out
     assert "Name another camera" in said.out
     assert "does not answer" in said.out
-    assert time.monotonic() - begun < 60

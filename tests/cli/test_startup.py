@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import subprocess
 import sys
+import warnings
 from pathlib import Path
+from typing import Annotated
 
 import pytest
 
+from aegis_ot.cli.app import _quiet_libraries
 from aegis_ot.sidecar.store import Store
 from tests.sidecar.test_store import fill
 
@@ -41,7 +44,7 @@ def test_rules_are_shown_without_what_judges_by_them(arguments: tuple[str, ...])
     loaded = loaded_by(*arguments)
     assert not loaded & (HEAVY | {"asyncio"})
     rooms = {name.split(".")[2] for name in loaded if name.startswith("aegis_ot.preflight.")}
-    assert rooms == {"database", "rules"}
+    assert rooms == {"rule_set", "rules"}
 
 
 def test_runs_are_listed_without_the_service(tmp_path: Path) -> None:
@@ -49,6 +52,18 @@ def test_runs_are_listed_without_the_service(tmp_path: Path) -> None:
     fill(store, "pcr", 40)
     store.close()
     assert not loaded_by("runs", "list", "--data", str(tmp_path)) & HEAVY
+
+
+def test_what_one_library_says_of_another_is_kept_from_the_terminal(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    pydantic = pytest.importorskip("pydantic")
+    monkeypatch.setattr(sys, "warnoptions", [])
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        _quiet_libraries()
+        pydantic.TypeAdapter(Annotated[int, pydantic.Field(alias="a")])
+    assert told == []
 
 
 def test_a_check_loads_no_library_of_cameras_services_and_models() -> None:

@@ -60,3 +60,26 @@ def test_how_near_the_camera_has_to_come_is_said_whatever_was_caught(told: Any) 
 def test_what_is_told_is_not_called_unknown_too(told: Any) -> None:
     assert "not known" in told()
     assert "not known" not in told(replace(SEEN, flagged=0))
+
+
+LIMIT = {
+    "tip": "p20", "liquid": "dye", "failures": 22, "normals": 18, "caught_before": 5, "caught": 18,
+    "flagged_before": 0, "flagged": 0, "used": True,
+}  # fmt: skip
+
+
+def test_limits_of_ones_own_are_told_with_what_so_few_wells_prove(aegis: Command) -> None:
+    made = load_model(SHIPPED)
+    data = {"limits": [LIMIT, LIMIT | {"liquid": "water", "used": False}]}
+    save_model(Path("own.model"), made.kind, made.arrays, made.settings, data)
+    said = aegis("world-model", "own.model").out
+    assert "p20, dye: limits of your own catch 18 of 22 planted failures (5 without them)" in said
+    assert "at most 19 in 100 normal wells" in said
+    assert "p20, water: limits of your own would catch no more failures than chance" in said
+
+
+def test_one_wish_at_a_time(aegis: Command, tmp_path: Path) -> None:
+    both = ("--false-stops-per-plate", "1", "--smallest-leftover", "20")
+    shown = aegis("fit", str(tmp_path), "-o", "x.model", *both)
+    assert shown.code == 2
+    assert "Choose one" in shown.err

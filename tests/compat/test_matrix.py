@@ -56,6 +56,12 @@ def ready(environment: Environment) -> Environment:
     return environment
 
 
+needed = pytest.mark.skipif(
+    all(e.ready for e in MATRIX), reason="its release and its Python are tried in the others"
+)
+
+
+@needed
 @pytest.mark.slow
 @pytest.mark.timeout(900)
 def test_liquid_commands_are_unchanged_here():
@@ -76,6 +82,7 @@ def flex_stories_of(python: str | Path) -> dict[str, str]:
     return {story: problem for story, problem in told.items() if problem}
 
 
+@needed
 def test_a_live_flex_is_guarded_here():
     assert flex_stories_of(sys.executable) == {}
 

@@ -6,28 +6,23 @@ A plain program, so that it runs in an interpreter that has nothing but ``opentr
 
 prints one JSON object: versions, and per protocol what was found. The guard has a sidecar (a
 stub on loopback that answers every keyframe and passes every well) and acts in simulation, so
-that both layers are at work; its moves above a well are the only commands it may add.
+that both layers are at work; its comments, and its moves above a well, are the only commands it
+may add. All others are compared with all their parameters.
 """
 
 from __future__ import annotations
 
 import io
 import json
+import os
 import re
+import signal
 import sys
 import threading
 import traceback
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
-
-LIQUID = {
-    "pickUpTip", "dropTip", "dropTipInPlace", "aspirate", "aspirateInPlace", "dispense",
-    "dispenseInPlace", "blowout", "blowOutInPlace", "airGapInPlace", "touchTip",
-    "aspirateWhileTracking", "dispenseWhileTracking", "moveToAddressableAreaForDropTip",
-    "liquidProbe", "tryLiquidProbe", "prepareToAspirate", "configureForVolume",
-    "configureNozzleLayout", "moveLabware", "waitForResume", "waitForDuration",
-}  # fmt: skip
 
 
 class _Stub(BaseHTTPRequestHandler):
@@ -127,11 +122,11 @@ def _error(error):
 def _plain(text):
     """Without what differs from run to run: identifiers and times."""
     text = re.sub(r"0x[0-9a-f]+|[0-9a-f]{8}-[0-9a-f-]{27}", "ID", text)
-    return re.sub(r"\d{4}-\d\d-\d\d \d\d:\d\d:\d\d", "TIME", text)
+    return re.sub(r"\d{4}-\d\d-\d\d.\d\d:\d\d:\d\d(\.\d+)?", "TIME", text)
 
 
 def engine_commands(text, name):
-    """Liquid commands of an engine run with all their parameters, or ``None`` (legacy core)."""
+    """Commands of an engine run with all their parameters, or ``None`` (legacy core)."""
     from opentrons.protocol_api._parameter_context import ParameterContext
     from opentrons.protocol_api.core.engine import ENGINE_CORE_API_VERSION
     from opentrons.protocols.execution.execute_python import exec_add_parameters, exec_run
@@ -139,7 +134,10 @@ def engine_commands(text, name):
 
     from aegis_ot.preflight.rehearsal.simulated_context import simulated_context
 
-    protocol = parse(text, name)
+    try:
+        protocol = parse(text, name)
+    except Exception:  # no protocol; how that ends was compared
+        return None
     if protocol.api_level < ENGINE_CORE_API_VERSION:
         return None
     with simulated_context(protocol.api_level, protocol.robot_type) as context:
@@ -155,17 +153,25 @@ def engine_commands(text, name):
         found = []
         ids = {}
         for command in state.commands.get_all():
-            if command.commandType not in LIQUID:
-                continue
             params = _params(command)
-            params.pop("message", None)
             text_params = json.dumps(params, sort_keys=True, default=str)
             for found_id in re.findall(r"[0-9a-f]{8}-[0-9a-f-]{27}", text_params):
                 ids.setdefault(found_id, f"id{len(ids)}")
             for found_id, plain in ids.items():
                 text_params = text_params.replace(found_id, plain)
-            found.append(f"{command.commandType} {text_params}")
+            found.append(f"{command.commandType} {_plain(text_params)}")
         return {"commands": found, "error": error}
+
+
+def without_added(plain, guarded):
+    """The guarded commands without those that the guard may add to the plain ones."""
+    left = []
+    for command in guarded:
+        expected = plain[len(left)] if len(left) < len(plain) else None
+        added = command.startswith(("moveToWell ", 'comment {"message": "aegis'))
+        if command == expected or not added:
+            left.append(command)
+    return left
 
 
 def _params(command):
@@ -177,13 +183,16 @@ def _params(command):
 
 def compare(path, url, keyframes):
     """Compare one protocol; returns a dict for the report."""
-    text = path.read_text(encoding="utf-8")
+    return compare_text(path.read_text(encoding="utf-8"), path.name, url, keyframes)
+
+
+def compare_text(text, name, url, keyframes):
     guarded = guarded_text(text, url)
     del keyframes[:]
-    plain, watched = simulate(text, path.name), simulate(guarded, path.name)
+    plain, watched = simulate(text, name), simulate(guarded, name)
     seen = len(keyframes)
     result = {
-        "file": path.name,
+        "file": name,
         "keyframes": seen,
         "lines": len(plain["log"] or ()),
         "problems": [],
@@ -193,15 +202,17 @@ def compare(path, url, keyframes):
     if plain["log"] != watched["log"]:
         result["problems"].append(f"run log differs: {_first(plain['log'], watched['log'])}")
     engine_plain, engine_guarded = (
-        engine_commands(text, path.name),
-        engine_commands(guarded, path.name),
+        engine_commands(text, name),
+        engine_commands(guarded, name),
     )
-    if engine_plain != engine_guarded:
-        result["problems"].append(
-            "engine commands differ: "
-            + _first(engine_plain["commands"], engine_guarded["commands"])
-            + f" ({engine_plain['error']} / {engine_guarded['error']})"
-        )
+    if engine_plain is not None:
+        left = without_added(engine_plain["commands"], engine_guarded["commands"])
+        if left != engine_plain["commands"] or engine_plain["error"] != engine_guarded["error"]:
+            result["problems"].append(
+                "engine commands differ: "
+                + _first(engine_plain["commands"], left)
+                + f" ({engine_plain['error']} / {engine_guarded['error']})"
+            )
     result["engine_commands"] = len(engine_plain["commands"]) if engine_plain else None
     result["own_error"] = plain["error"]
     return result
@@ -214,16 +225,60 @@ def _first(one, other):
     return f"lengths {len(one or ())} / {len(other or ())}"
 
 
-def main(files):
-    import opentrons
+_USUAL = """
+requirements = {{"robotType": "{robot}", "apiLevel": "{level}"}}
+def run(protocol):
+    plate = protocol.load_labware("nest_96_wellplate_200ul_flat", "{slots[0]}")
+    tips = protocol.load_labware("opentrons_{tips}_200ul", "{slots[1]}")
+    trash = protocol.load_trash_bin("A3") if "{robot}" == "Flex" else None
+    pipette = protocol.load_instrument("{pipette}", "left", [tips])
+    pipette.transfer(50, plate["A1"], plate["B1"])
+"""
 
-    results = []
-    with stub_sidecar() as (url, keyframes):
-        for path in map(Path, files):
-            try:
-                results.append(compare(path, url, keyframes))
-            except Exception:
-                results.append({"file": path.name, "problems": [traceback.format_exc()]})
+
+def warm_up():
+    """Load and cache before the forks what all of them need; what no protocol spoils."""
+    ot2 = {"robot": "OT-2", "slots": "12", "tips": "96_filtertiprack", "pipette": "p300_single"}
+    flex = {"robot": "Flex", "slots": ("D1", "D2"), "tips": "flex_96_tiprack",
+            "pipette": "flex_1channel_1000"}  # fmt: skip
+    for robot, level in ((ot2, "2.13"), (ot2, "2.15"), (flex, "2.16")):
+        # Not every release simulates both robots.
+        with suppress(Exception), stub_sidecar() as (url, keyframes):
+            compare_text(_USUAL.format(level=level, **robot), "usual.py", url, keyframes)
+    assert threading.active_count() == 1, "a fork would lack what its locks belong to"
+
+
+def compare_apart(path, processor_s):
+    """The same in a fork: a protocol may end its process, never end, or spoil it for the next."""
+    reading, writing = os.pipe()
+    pid = os.fork()
+    if pid == 0:
+        try:
+            os.dup2(os.open(os.devnull, os.O_RDWR), 1)
+            signal.setitimer(signal.ITIMER_PROF, processor_s)
+            signal.alarm(20 * processor_s)  # it waits for something
+            with stub_sidecar() as (url, keyframes):
+                found = compare(path, url, keyframes)
+        except Exception:
+            found = {"file": path.name, "problems": [traceback.format_exc()]}
+        finally:
+            with os.fdopen(writing, "w") as pipe:
+                json.dump(found, pipe)
+            os._exit(0)
+    os.close(writing)
+    with os.fdopen(reading) as pipe:
+        said = pipe.read()
+    code = os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1])
+    late = code in (-signal.SIGALRM, -signal.SIGPROF)
+    ended = "takes too long" if late else f"ends its process ({code})"
+    return json.loads(said) if said else {"file": path.name, "problems": [], "own_error": ended}
+
+
+def main(files, processor_s=300):
+    import opentrons.simulate  # once, before the forks
+
+    warm_up()
+    results = [compare_apart(path, processor_s) for path in map(Path, files)]
     print(json.dumps({"opentrons": opentrons.__version__, "python": sys.version.split()[0],
                       "protocols": results}))  # fmt: skip
 
@@ -232,4 +287,8 @@ if __name__ == "__main__":
     import logging
 
     logging.disable(logging.CRITICAL)
-    main(sys.argv[1:])
+    given = sys.argv[1:]
+    if given[0].startswith("--each="):
+        main(given[1:], int(given[0].partition("=")[2]))
+    else:
+        main(given)

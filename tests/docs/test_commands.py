@@ -49,7 +49,7 @@ ELSEWHERE = {
 """Programs that only blocks with a title may call."""
 
 SLOW = {
-    "aegis-ot rules test examples/rules/elisa.json",
+    "aegis-ot rules test examples/rules/luciferase.json",
     "aegis-ot corpus protocols/ --out new.csv --against results.csv",
     "aegis-ot check --roles-template roles.txt examples/demo/pcr_setup_contaminated.py",
     "aegis-ot corpus examples --out shelf.csv",

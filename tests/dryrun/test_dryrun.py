@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import sys
 from dataclasses import replace
 
 import pytest
 
+from aegis_ot.checking.engines import Engine
 from aegis_ot.dryrun import TRUSTING, DryRunSettings, dry_run
 from aegis_ot.errors import ConfigurationError, RehearsalError
 from aegis_ot.preflight.rehearsal import Script
 from aegis_ot.reports.run_html import run_report_html
 from aegis_ot.sidecar import make_analyser
+from aegis_ot.sidecar.overview import runs_overview
 from aegis_ot.sidecar.store import Store
 from aegis_ot.vocabulary import KeyframeKind, Outcome, Route
 
@@ -137,7 +140,7 @@ def test_a_run_is_kept_where_that_is_asked_for(tmp_path):
     settings = DryRunSettings(faults=("no_dispense@1:A2",), on_fail="stop", data=tmp_path)
     result = dry_run(SCRIPT, settings, make_analyser())
     store = Store(tmp_path, alone=True)
-    (row,) = store.runs()
+    (row,) = runs_overview(store)
     assert row["run"] == result.reported.account["run"]
     assert row["finished"]["outcome"] == "aborted"
     assert row["wells"]["fail"] == 1
@@ -176,3 +179,29 @@ def test_transient_faults_are_put_right_and_told():
     assert topped_up.volume_ul == pytest.approx(75.0, abs=15.0)
     page = run_report_html([result.reported])
     assert "put right by delivery 8" in page
+
+
+@pytest.mark.timeout(300)
+def test_an_engine_runs_what_the_opentrons_here_does_not_take(monkeypatch, stopped):
+    """Its interpreter is this one's: what is tested is the way there and back."""
+    engine = Engine("9.0.0", (2, 28), sys.executable)
+    monkeypatch.setattr("aegis_ot.dryrun.runner.engine_for", lambda need: engine)
+    settings = DryRunSettings(faults=("no_dispense@1:A2",), on_fail="stop")
+    result = dry_run(SCRIPT, settings, make_analyser())
+    assert (result.outcome, result.detail) == (stopped.outcome, stopped.detail)
+    assert [(row.address, row.outcome) for row in result.wells] == [
+        (row.address, row.outcome) for row in stopped.wells
+    ]
+    assert result.touched_after_failure == stopped.touched_after_failure
+    odd = Script('metadata = {"apiLevel": "2.16"}\ndef run(protocol):\n    1 / 0\n', "odd.py")
+    with pytest.raises(RehearsalError, match=r"odd\.py, line 3: .*ZeroDivisionError"):
+        dry_run(odd, settings, make_analyser())
+    with pytest.raises(ConfigurationError, match=r"9\.0\.0, and the live page .*Leave --open out"):
+        dry_run(SCRIPT, replace(settings, live=True), make_analyser())
+
+
+def test_a_protocol_whose_engine_lacks_is_named_with_the_line_to_type(tmp_path, monkeypatch):
+    monkeypatch.setenv("AEGIS_OT_ENGINES", str(tmp_path))
+    newer = Script('metadata = {"apiLevel": "2.28"}\ndef run(protocol): ...\n', "newer.py")
+    with pytest.raises(ConfigurationError, match=r"^newer\.py: .*aegis-ot engines install 9\.0\.0"):
+        dry_run(newer, DryRunSettings(), make_analyser())

@@ -10,8 +10,8 @@ from typing import Any
 
 from aegis_ot.fleet import FleetConfig, FleetReport, FleetScreen, Job, run_fleet
 from aegis_ot.fleet.agent import AegisAgent
-from aegis_ot.fleet.jobs import Needs
-from aegis_ot.fleet.report import Entry
+from aegis_ot.fleet.jobs import JobNeeds
+from aegis_ot.fleet.report import FleetEntry
 from aegis_ot.fleet.sessions import Watch
 from aegis_ot.preflight.check_protocol import check_script
 from aegis_ot.preflight.rehearsal import Script
@@ -35,7 +35,7 @@ def passed() -> Any:
 
 
 def job(name: str, expected_s: float = 1.0, **needs: Any) -> Job:
-    return Job(name, Script(EMPTY, name), Needs(**{"robot_type": "OT-2", **needs}), expected_s)
+    return Job(name, Script(EMPTY, name), JobNeeds(**{"robot_type": "OT-2", **needs}), expected_s)
 
 
 def fleet(*robots: Mapping[str, Any], **values: Any) -> FleetConfig:
@@ -80,7 +80,7 @@ class Heard(FleetScreen):
     def stands(self, robot: str, status: Mapping[str, Any]) -> None:
         self.states.append((robot, status["state"]))
 
-    def ended(self, entry: Entry) -> None:
+    def ended(self, entry: FleetEntry) -> None:
         self.order.append(entry.job.name)
 
 

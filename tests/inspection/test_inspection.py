@@ -83,7 +83,7 @@ def test_a_run_is_shown_as_it_was_judged(store: Path) -> None:
     seen = inspect_run(kept, "run-1")
     assert [well.well for well in seen.wells] == [*(f"{row}1" for row in "ABCDEFGH")]
     last = seen.wells[-1]
-    assert (last.outcome, last.failure) == ("fail", "no_dispense")
+    assert (last.outcome, last.failure) == ("fail", "no dispense")
     after = last.frames[KeyframeKind.POST_DISPENSE]
     assert after.measured is not None
     assert after.measured.volume_ul > 75

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from aegis_ot.preflight import Script, check_script, load_database
+from aegis_ot.preflight import Script, check_script, load_rules
 
 PROTOCOL = """
 from opentrons.types import Location
@@ -30,9 +30,7 @@ def run(ctx):
 
 def _rules(water: str, tube: str) -> set[str]:
     text = PROTOCOL.format(water=water, tube=tube)
-    return {
-        finding.rule for finding in check_script(Script(text, "p.py"), load_database()).findings
-    }
+    return {finding.rule for finding in check_script(Script(text, "p.py"), load_rules()).findings}
 
 
 def test_the_name_of_a_place_in_a_loop_does_not_rename_a_named_tube() -> None:

@@ -1,6 +1,6 @@
 from __future__ import annotations
 
-from aegis_ot.fleet.report import Entry, FleetReport
+from aegis_ot.fleet.report import FleetEntry, FleetReport
 from aegis_ot_lab.fleet_scaling import sweep, workload
 from tests.fleet.support import RESULT
 
@@ -14,7 +14,7 @@ def judged(tasks):
             result["outcome"] = "rejected"
         elif task.truth and number:
             result["flagged"] = [{"well": f"{task.truth} of plate (slot 1)"}]
-        entries.append(Entry(task.job, result["outcome"], result=result))
+        entries.append(FleetEntry(task.job, result["outcome"], result=result))
     return FleetReport((), entries)
 
 
@@ -32,7 +32,7 @@ def test_more_robots_are_faster_and_detect_the_same():
     assert one.detected == four.detected == 15
     assert one.least_s == one.alone_s <= one.seconds
     assert four.planned_s >= four.least_s
-    assert four.seconds < one.seconds / 2
+    assert four.planned_s < one.planned_s / 2
 
 
 def test_the_workload_many_times_over():

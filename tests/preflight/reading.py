@@ -5,9 +5,9 @@ from __future__ import annotations
 import functools
 import textwrap
 
-from aegis_ot.preflight import Options, Script, load_database, record
+from aegis_ot.preflight import Options, Script, load_rules, record
 from aegis_ot.preflight.evidence import Evidence, Kind
-from aegis_ot.preflight.judging import Reading
+from aegis_ot.preflight.judging import Interpretation
 from aegis_ot.preflight.roles import Roles
 
 DECK = """
@@ -24,14 +24,16 @@ def run(protocol):
 
 
 @functools.cache
-def read(body: str, head: str = "", label: str = "None", assay: str = "pcr") -> Reading:
+def read(body: str, head: str = "", label: str = "None", assay: str = "pcr") -> Interpretation:
     """A protocol on a PCR plate in slot 1 and a tube rack in slot 2."""
     inside = textwrap.indent(textwrap.dedent(body).strip("\n"), "    ")
     text = DECK.format(head=textwrap.dedent(head), body=inside, label=label)
-    return Reading(record(Script(text, "protocol.py")), load_database(), Options(assay=(assay,)))
+    return Interpretation(
+        record(Script(text, "protocol.py")), load_rules(), Options(assay=(assay,))
+    )
 
 
-def evidence(reading: Reading, kind: Kind) -> dict[str, tuple[Evidence, list[str]]]:
+def evidence(reading: Interpretation, kind: Kind) -> dict[str, tuple[Evidence, list[str]]]:
     """Evidence of one kind by its words, with the addresses of its wells."""
     return {
         one.text: (one, [ref.address for ref in one.wells])
@@ -40,7 +42,7 @@ def evidence(reading: Reading, kind: Kind) -> dict[str, tuple[Evidence, list[str
     }
 
 
-def roles_by_well(reading: Reading) -> dict[str, str]:
+def roles_by_well(reading: Interpretation) -> dict[str, str]:
     """The role that evidence gives each well, by its address."""
     (roles,) = (one for one in reading.roles if isinstance(one, Roles))
     return {ref.address: assigned.role for ref, assigned in roles.by_well.items()}

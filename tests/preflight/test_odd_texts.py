@@ -6,7 +6,7 @@ import time
 
 import pytest
 
-from aegis_ot.preflight import Report, Script, check_script, load_database
+from aegis_ot.preflight import Report, Script, check_script, load_rules
 from aegis_ot.vocabulary import VerdictWord
 
 _PROTOCOL = '''metadata = {{"apiLevel": "2.13"}}
@@ -28,7 +28,7 @@ _SECONDS = 8.0
 
 
 def _check(head: str = "", doc: str = "What it does.") -> Report:
-    return check_script(Script(_PROTOCOL.format(head=head, doc=doc), "p.py"), load_database())
+    return check_script(Script(_PROTOCOL.format(head=head, doc=doc), "p.py"), load_rules())
 
 
 @pytest.mark.parametrize(

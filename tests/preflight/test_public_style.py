@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from aegis_ot.preflight import check_script, load_database
+from aegis_ot.preflight import check_script, load_rules
 from aegis_ot.preflight.rehearsal import Script
 from aegis_ot.vocabulary import Severity
 
@@ -19,7 +19,7 @@ EXPECTED = json.loads((HERE / "expected.json").read_text(encoding="utf-8"))
 def test_a_protocol_in_public_style_is_not_accused(name: str) -> None:
     script = Script((HERE / name).read_text(encoding="utf-8"), name)
 
-    report = check_script(script, load_database())
+    report = check_script(script, load_rules())
 
     errors = {
         found.rule: found.message for found in report.findings if found.severity is Severity.ERROR
@@ -32,7 +32,7 @@ metadata = {"apiLevel": "2.15"}
 
 def run(protocol):
     tubes = protocol.load_labware("opentrons_24_tuberack_nest_2ml_snapcap", 1)
-    sample_plate = protocol.load_labware("nest_96_wellplate_200ul_flat", 2)
+    sample_plate = protocol.load_labware("nest_96_wellplate_200ul_flat", 2{label})
     tips = protocol.load_labware("opentrons_96_tiprack_300ul", 3)
     p300 = protocol.load_instrument("p300_single_gen2", "left", tip_racks=[tips])
     water = tubes["C1"]
@@ -47,17 +47,19 @@ def run(protocol):
 
 
 @pytest.mark.parametrize(
-    ("mixed", "severity"),
+    ("mixed", "label", "severity"),
     [
-        ("", Severity.WARNING),
-        (", mix_after=(2, 20)", Severity.ERROR),
+        ("", ', label="samples"', Severity.WARNING),
+        (", mix_after=(2, 20)", "", Severity.WARNING),
+        (", mix_after=(2, 20)", ', label="samples"', Severity.ERROR),
     ],
 )
 def test_a_sample_plate_that_is_only_filled_may_be_one_for_samples(
-    mixed: str, severity: Severity
+    mixed: str, label: str, severity: Severity
 ) -> None:
-    script = Script(SAMPLE_PLATE.replace("{mixed}", mixed), "protocol.py")
+    text = SAMPLE_PLATE.replace("{mixed}", mixed).replace("{label}", label)
+    script = Script(text, "protocol.py")
 
-    report = check_script(script, load_database())
+    report = check_script(script, load_rules())
 
     assert {f.severity for f in report.findings if f.rule == "GEN-1"} == {severity}

@@ -6,11 +6,11 @@ import functools
 import textwrap
 from typing import Any
 
-from aegis_ot.preflight import Database, Options, Report, load_database
-from aegis_ot.preflight.judging import Reading
+from aegis_ot.preflight import Options, Report, RuleSet, load_rules
+from aegis_ot.preflight.judging import Interpretation
 from aegis_ot.preflight.opinion import check_with_dossier
 from aegis_ot.preflight.rehearsal import Script
-from aegis_ot.reasoning import Message, Passage, Picture, Request
+from aegis_ot.reasoning import Message, Passage, PromptPicture, Request
 from aegis_ot.reasoning.answer import strict_object
 from aegis_ot.reasoning.backends import Clock
 from aegis_ot.vocabulary import Dossier
@@ -20,10 +20,10 @@ SCHEMA: dict[str, Any] = strict_object(
     lines={"type": "array", "items": {"type": "integer"}},
 )
 GOOD = {"verdict": "fail", "lines": [3, 4]}
-PNG = Picture(b"\x89PNG not really", "image/png")
+PNG = PromptPicture(b"\x89PNG not really", "image/png")
 
 
-def request(text: str = "Is it right?", *pictures: Picture) -> Request:
+def request(text: str = "Is it right?", *pictures: PromptPicture) -> Request:
     return Request(
         "layer1",
         (Passage("Be exact.", cached=True), Passage("Be brief.")),
@@ -51,14 +51,14 @@ class FakeClock(Clock):
 
 
 @functools.cache
-def database() -> Database:
-    return load_database()
+def rule_set() -> RuleSet:
+    return load_rules()
 
 
 @functools.cache
-def examined(text: str, options: Options | None = None) -> tuple[Report, Dossier, Reading]:
+def examined(text: str, options: Options | None = None) -> tuple[Report, Dossier, Interpretation]:
     script = Script(textwrap.dedent(text), "protocol.py")
-    return check_with_dossier(script, database(), options)
+    return check_with_dossier(script, rule_set(), options)
 
 
 def checked(text: str) -> tuple[Report, Dossier]:

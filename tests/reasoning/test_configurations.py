@@ -4,17 +4,17 @@ import pytest
 
 from aegis_ot.preflight.rehearsal import Script
 from aegis_ot.reasoning import (
-    Configuration,
+    AskingConfiguration,
     ReplayBackend,
     ScriptedBackend,
     State,
-    Usage,
+    TokenUsage,
     judge_in,
     request_in,
 )
 from aegis_ot.vocabulary import Severity, VerdictWord
 
-from .samples import CONTAMINATED, SILENT, answer, database, examined, finding
+from .samples import CONTAMINATED, SILENT, answer, examined, finding, rule_set
 
 BLIND = {
     "family": "pcr",
@@ -35,10 +35,10 @@ def test_rules_only_asks_nobody() -> None:
 
 def test_hybrid_keeps_and_counts() -> None:
     report, dossier, reading = examined(CONTAMINATED)
-    backend = ScriptedBackend([answer()], Usage(10, 20, 30, 40))
-    result = judge_in(Configuration.HYBRID, report, dossier, reading, backend)
+    backend = ScriptedBackend([answer()], TokenUsage(10, 20, 30, 40))
+    result = judge_in(AskingConfiguration.HYBRID, report, dossier, reading, backend)
     assert result.report.findings == report.findings
-    assert result.usage == Usage(10, 20, 30, 40)
+    assert result.usage == TokenUsage(10, 20, 30, 40)
     assert result.reply is not None
     assert result.reply.model == "scripted"
 
@@ -72,7 +72,7 @@ def test_llm_only_sees_no_rules() -> None:
     backend = ScriptedBackend([said])
     result = judge_in("llm-only", report, dossier, reading, backend)
     told = "".join(passage.text for passage in backend.requests[0].system)
-    assert not any(rule.id in told for rule in database().rules)
+    assert not any(rule.id in told for rule in rule_set().rules)
     assert result.report.verdict is VerdictWord.FAIL
     # What it calls a rule is its own name for it, and flags the protocol all the same.
     named = BLIND | {"findings": [finding("cross-contamination", ["4:H12"], [15])]}
@@ -106,9 +106,9 @@ def test_every_configuration_works_on_recordings(tmp_path) -> None:  # type: ign
 def test_a_laboratorys_own_rules_are_told(tmp_path) -> None:  # type: ignore[no-untyped-def]
     import json
 
-    from aegis_ot.preflight import load_database
-    from aegis_ot.preflight.database import shipped_rules
+    from aegis_ot.preflight import load_rules
     from aegis_ot.preflight.opinion import check_with_dossier
+    from aegis_ot.preflight.rule_set import shipped_rules
 
     family = json.loads((shipped_rules() / "generic.json").read_text())
     rule = next(r for r in family["rules"] if r["id"] == "GEN-1")
@@ -126,10 +126,10 @@ def test_a_laboratorys_own_rules_are_told(tmp_path) -> None:  # type: ignore[no-
         ],
     }
     (tmp_path / "ours.json").write_text(json.dumps(own))
-    database_ = load_database([tmp_path])
-    _, dossier, _ = check_with_dossier(Script(CONTAMINATED, "p.py"), database_)
+    rule_set_ = load_rules([tmp_path])
+    _, dossier, _ = check_with_dossier(Script(CONTAMINATED, "p.py"), rule_set_)
     # The sidecar knows the shipped rules only; the dossier carries the others.
-    request = request_in("hybrid", dossier, database())
+    request = request_in("hybrid", dossier, rule_set())
     assert request is not None
     said = str(request.messages[0].parts[0])
     for told in ("Never pipette on a Friday.", "Is it a Friday?", "a weekday in the metadata"):

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from aegis_ot.reasoning import PriceTable, ScriptedBackend, State
-from aegis_ot.reasoning.backend import Reply, Request, Usage
+from aegis_ot.reasoning.backend import Reply, Request, TokenUsage
 from aegis_ot.reasoning.gate_tiers import Budget, VlmTiers, is_sure
 from aegis_ot.reasoning.prices import Price
 from aegis_ot.vision.gates import Gates, OperatorGate
@@ -29,7 +29,7 @@ class Model:
     def ask(self, request: Request) -> Reply:
         answer = self._answers[min(self.asked, len(self._answers) - 1)]
         self.asked += 1
-        usage = Usage(input=1_000_000, output=500_000)
+        usage = TokenUsage(input=1_000_000, output=500_000)
         return Reply(State.ANSWERED, self.name, answer, usage=usage, seconds=1.5)
 
 

@@ -13,7 +13,7 @@ from aegis_ot.preflight import Report
 from aegis_ot.reasoning import ScriptedBackend, State, judge_in
 from aegis_ot.vocabulary import Dossier, Severity, VerdictWord
 
-from .samples import CONTAMINATED, PROSE, SILENT, database, examined
+from .samples import CONTAMINATED, PROSE, SILENT, examined, rule_set
 
 WAIVED = SILENT.replace(
     'p20.mix(2, 10, plate["H12"])',
@@ -29,17 +29,17 @@ RANK = {VerdictWord.PASS: 0, VerdictWord.WARN: 1, VerdictWord.FAIL: 2, VerdictWo
 
 
 def _rules() -> st.SearchStrategy[str]:
-    known = [rule.id for rule in database().rules]
+    known = [rule.id for rule in rule_set().rules]
     return st.one_of(st.sampled_from([*known, "MODEL", "PCR-99"]), st.text(max_size=8))
 
 
 def _families() -> st.SearchStrategy[str]:
-    known = [family.family for family in database().families]
+    known = [family.family for family in rule_set().families]
     return st.one_of(st.sampled_from([*known, ""]), st.text(max_size=8))
 
 
 def _roles() -> st.SearchStrategy[str]:
-    known = sorted({role for family in database().families for role in family.roles})
+    known = sorted({role for family in rule_set().families for role in family.roles})
     return st.one_of(st.sampled_from(known), st.text(max_size=8))
 
 

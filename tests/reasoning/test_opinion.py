@@ -137,6 +137,27 @@ def test_open_questions_stay_listed_with_the_models_reading() -> None:
     assert "it holds: H12 is no NTC." in reasons["PCR-2"]
 
 
+def test_a_rule_that_does_not_apply_can_be_said_not_to() -> None:
+    said = reading_of("PCR-2", "not_applicable", [], [], "Nothing is amplified.")
+    after = judged(SILENT, answer(answers=[said])).report
+    reasons = {u.rule: u.reason for u in after.undecided}
+    assert "it does not apply: Nothing is amplified." in reasons["PCR-2"]
+
+
+def test_roles_under_a_decided_rule_tell_what_it_would_find() -> None:
+    text = CONTAMINATED.replace("# NOTE_HERE", "# B1 is a second no-template control") + (
+        '    p20.transfer(15, master_mix, plate["B1"])\n'
+        '    p20.transfer(5, template, plate["B1"])\n'
+    )
+    before = checked(text)[0]
+    assert "PCR-4" in before.judged
+    told = proposal("ntc", ["4:B1"], 4, "B1 is a second no-template control")
+    after = judged(text, answer(roles=[told])).report
+    assert after.findings == before.findings
+    (note,) = [one for one in after.notes if "PCR-4 would find" in one]
+    assert "B1" in note
+
+
 def test_levels_that_the_model_reads_are_offered_with_its_roles() -> None:
     text = """
     # The tubes A1, B1 and C1 hold the BSA standards: 0.5, 1 and 2 mg/mL.

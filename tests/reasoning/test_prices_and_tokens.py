@@ -9,21 +9,21 @@ import pytest
 from aegis_ot.errors import ConfigurationError
 from aegis_ot.preflight.opinion import check_with_dossier
 from aegis_ot.preflight.rehearsal import Script
-from aegis_ot.reasoning import Usage, load_prices, request_in, request_size
+from aegis_ot.reasoning import TokenUsage, load_prices, request_in, request_size
 from aegis_ot.reasoning.prompts_text import prompt
 from aegis_ot.reasoning.tokens import estimate_tokens
 
-from .samples import database
+from .samples import rule_set
 
 BENCHMARK = Path(__file__).parents[2] / "examples" / "benchmark"
-MILLION = Usage(1_000_000, 1_000_000, 1_000_000, 1_000_000)
+MILLION = TokenUsage(1_000_000, 1_000_000, 1_000_000, 1_000_000)
 
 
 def test_the_table_is_dated_and_prices_every_kind_of_token() -> None:
     table = load_prices()
     assert len(table.as_of) == 10
     assert table.cost("claude-opus-4-7", MILLION) == pytest.approx(5 + 0.5 + 6.25 + 25)
-    assert table.cost("gpt-4o", Usage(1_000_000, 1_000_000)) == pytest.approx(2.5 + 1.25)
+    assert table.cost("gpt-4o", TokenUsage(1_000_000, 1_000_000)) == pytest.approx(2.5 + 1.25)
 
 
 def test_dated_names_count_and_other_models_do_not() -> None:
@@ -71,8 +71,8 @@ def test_a_hybrid_request_keeps_to_its_budget() -> None:
     """
     sizes = []
     for path in sorted(BENCHMARK.glob("*.py"))[::4]:
-        _, dossier, _ = check_with_dossier(Script(path.read_text(), path.name), database())
-        request = request_in("hybrid", dossier, database())
+        _, dossier, _ = check_with_dossier(Script(path.read_text(), path.name), rule_set())
+        request = request_in("hybrid", dossier, rule_set())
         assert request is not None
         assert request.max_output <= 1200
         sizes.append(request_size(request))

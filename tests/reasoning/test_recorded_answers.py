@@ -17,7 +17,7 @@ from aegis_ot.preflight.rehearsal import Script
 from aegis_ot.reasoning import ReplayBackend, ScriptedBackend, judge_in, request_in
 from aegis_ot.vocabulary import Severity, VerdictWord
 from aegis_ot_lab.batch import export_requests, import_answers
-from tests.reasoning.samples import database
+from tests.reasoning.samples import rule_set
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 FOLDERS = ["benchmark", "prose-benchmark"]
@@ -31,7 +31,7 @@ def answered(folder: str) -> list[str]:
 @functools.cache
 def examined(folder: str, name: str):  # type: ignore[no-untyped-def]
     text = (EXAMPLES / folder / name).read_text(encoding="utf-8")
-    return check_with_dossier(Script(text, name), database())
+    return check_with_dossier(Script(text, name), rule_set())
 
 
 @pytest.fixture(scope="module", params=FOLDERS)
@@ -39,7 +39,7 @@ def judged(request, tmp_path_factory) -> tuple[dict[str, dict], dict[str, Report
     """The labels, and the reports with the model's answers, by file."""
     folder, place = request.param, tmp_path_factory.mktemp("replay")
     names = answered(folder)
-    asked = [(n, request_in("hybrid", examined(folder, n)[1], database())) for n in names]
+    asked = [(n, request_in("hybrid", examined(folder, n)[1], rule_set())) for n in names]
     export_requests([(n, one) for n, one in asked if one is not None], place / "requests.jsonl")
     done = import_answers(
         EXAMPLES / folder / "answers.jsonl", place / "kept", place / "requests.jsonl"
@@ -90,7 +90,7 @@ def test_what_the_model_adds_warns(judged) -> None:  # type: ignore[no-untyped-d
 
 def test_an_answer_may_name_the_protocol_only_if_it_is_one(tmp_path: Path) -> None:
     name = "b10.py"
-    request = request_in("hybrid", examined("benchmark", name)[1], database())
+    request = request_in("hybrid", examined("benchmark", name)[1], rule_set())
     assert request is not None
     requests = tmp_path / "requests.jsonl"
     export_requests([(f"some/folder/{name}", request)], requests)

@@ -11,12 +11,12 @@ import pytest
 from aegis_ot.errors import ConfigurationError
 from aegis_ot.reasoning import (
     AnthropicBackend,
-    Manner,
     RecordingBackend,
     ReplayBackend,
+    RequestOptions,
     ScriptedBackend,
     State,
-    Usage,
+    TokenUsage,
     make_backend,
 )
 from aegis_ot_lab.batch import export_requests, import_answers
@@ -28,12 +28,12 @@ KEY = "sk-ant-very-secret-0123456789"
 
 def test_what_was_recorded_is_replayed(tmp_path: Path) -> None:
     asked = request("Look", PNG)
-    script = ScriptedBackend([GOOD], Usage(1, 2, 3, 4))
+    script = ScriptedBackend([GOOD], TokenUsage(1, 2, 3, 4))
     first = RecordingBackend(script, tmp_path).ask(asked)
     again = ReplayBackend(tmp_path).ask(asked)
     assert again.state is State.ANSWERED
     assert again.value == first.value == GOOD
-    assert again.usage == Usage(1, 2, 3, 4)
+    assert again.usage == TokenUsage(1, 2, 3, 4)
     assert again.attempts == 0
     images = list((tmp_path / "images").iterdir())
     assert [path.read_bytes() for path in images] == [PNG.data]
@@ -41,7 +41,7 @@ def test_what_was_recorded_is_replayed(tmp_path: Path) -> None:
 
 def test_a_recording_of_a_service_holds_no_secret(tmp_path: Path, server: WireServer) -> None:
     server.answers = [Answer(body=anthropic_message(GOOD), headers={"x-secret": KEY})]
-    live = AnthropicBackend("m", server.url, manner=Manner(KEY, trust_env=False))
+    live = AnthropicBackend("m", server.url, manner=RequestOptions(KEY, trust_env=False))
     RecordingBackend(live, tmp_path).ask(request())
     text = "".join(p.read_text() for p in tmp_path.rglob("*.json"))
     assert KEY not in text
@@ -71,7 +71,7 @@ def test_answers_of_several_models_are_told_apart(tmp_path: Path, server: WireSe
         server.seen.clear()
         body = anthropic_message(GOOD) | {"model": model}
         server.answers = [Answer(body=body)]
-        live = AnthropicBackend(model, server.url, manner=Manner(KEY, trust_env=False))
+        live = AnthropicBackend(model, server.url, manner=RequestOptions(KEY, trust_env=False))
         RecordingBackend(live, tmp_path).ask(request())
     unsure = ReplayBackend(tmp_path).ask(request())
     assert unsure.state is State.NOT_RECORDED

@@ -13,15 +13,15 @@ BENCHMARK = Path(__file__).parents[2] / "examples" / "benchmark"
 HASHES = """
 import sys
 from pathlib import Path
-from aegis_ot.preflight import load_database
+from aegis_ot.preflight import load_rules
 from aegis_ot.preflight.opinion import check_with_dossier
 from aegis_ot.preflight.rehearsal import Script
 from aegis_ot.reasoning import request_in
 
-database = load_database()
+rule_set = load_rules()
 for path in map(Path, sys.argv[1:]):
-    dossier = check_with_dossier(Script(path.read_text(), path.name), database)[1]
-    asked = request_in("hybrid", dossier, database)
+    dossier = check_with_dossier(Script(path.read_text(), path.name), rule_set)[1]
+    asked = request_in("hybrid", dossier, rule_set)
     print(path.name, dossier.digest, asked.hash)
 """
 

@@ -17,10 +17,10 @@ import pytest
 from aegis_ot.errors import ConfigurationError
 from aegis_ot.reasoning import (
     AnthropicBackend,
-    Manner,
-    Picture,
+    PromptPicture,
     RecordingBackend,
     ReplayBackend,
+    RequestOptions,
     ScriptedBackend,
     State,
     make_backend,
@@ -29,7 +29,7 @@ from aegis_ot.reasoning.gate_tiers import VlmTiers
 from aegis_ot.reasoning.vlm import VlmGate, gate_request
 from aegis_ot.sidecar import SidecarConfig, make_analyser
 from aegis_ot.sidecar.reasoning_routes import gates_of
-from aegis_ot.vision.gates import Case, Gates, OperatorGate
+from aegis_ot.vision.gates import GateInput, Gates, OperatorGate
 from aegis_ot.vision.measuring import ColumnReading
 from aegis_ot.vision.types import TipDetection, TrajectorySample
 from aegis_ot.vocabulary import FailureType, Gate, KeyframeKind, Outcome, Route
@@ -39,7 +39,7 @@ from tests.reasoning.wire_server import Answer, WireServer, anthropic_message
 EXPECTED = dict(zip(KeyframeKind, (100.0, 100.0, 0.0, 0.0), strict=True))
 
 
-def case(reagent: str = "red dye", **missing: Any) -> Case:
+def case(reagent: str = "red dye", **missing: Any) -> GateInput:
     frames, detections = {}, {}
     for n, kind in enumerate(KeyframeKind):
         frame = np.full((480, 640, 3), 40, np.uint8)
@@ -52,7 +52,7 @@ def case(reagent: str = "red dye", **missing: Any) -> Case:
     sample = TrajectorySample(
         "1", "run", "A7", "p300", 100.0, frames, detections, EXPECTED, reagent=reagent
     )
-    return Case(sample, Route.GREY_ZONE, 3.2)
+    return GateInput(sample, Route.GREY_ZONE, 3.2)
 
 
 def said(*verdicts: str, **changes: Any) -> dict[str, Any]:
@@ -139,7 +139,7 @@ def test_what_the_model_is_shown() -> None:
         assert max(image.shape[:2]) == 550
         middle = image[image.shape[0] // 2, image.shape[1] // 2].mean()
         assert middle > 200, "the tip, with the contrast stretched"
-    text = "\n".join(str(p) for p in request.messages[0].parts if not isinstance(p, Picture))
+    text = "\n".join(str(p) for p in request.messages[0].parts if not isinstance(p, PromptPicture))
     assert "100 µL" in text
     assert "'red dye'" in text
     assert "Asked because it looks unlike" in text
@@ -162,7 +162,7 @@ def test_a_normal_well_stands_beside_the_well_in_question_and_signs_are_named() 
             for picture in (one, pair)
         ]
         assert widths[1] > 2 * widths[0], "two tips and a bar between them"
-    text = "\n".join(str(p) for p in told.messages[0].parts if not isinstance(p, Picture))
+    text = "\n".join(str(p) for p in told.messages[0].parts if not isinstance(p, PromptPicture))
     assert "left: a normal well of this run" in text
     assert (
         "strongest first: a column that is left after the dispense (pictures 3 and 4); no colour "
@@ -173,7 +173,7 @@ def test_a_normal_well_stands_beside_the_well_in_question_and_signs_are_named() 
     assert "Measured" not in text, "the expected volume is no measurement, nor is ± inf"
 
 
-def facts(asked: Case) -> str:
+def facts(asked: GateInput) -> str:
     return str(gate_request(asked).messages[0].parts[0])
 
 
@@ -187,7 +187,7 @@ def facts(asked: Case) -> str:
     ],
 )
 def test_why_a_well_is_asked_about_is_not_contradicted_by_what_was_noticed(
-    asked: Case, why: str
+    asked: GateInput, why: str
 ) -> None:
     text = facts(replace(asked, signs={"retained": 3.3}))
     assert f"Asked because {why}" in text or f"{why} of this run" in text
@@ -213,7 +213,7 @@ def test_a_tip_that_was_not_found_is_sought_where_the_normal_wells_is() -> None:
     lost.sample.frames[KeyframeKind.TRANSIT][:] = 40  # type: ignore[index]
     lost.sample.frames[KeyframeKind.TRANSIT][100:300, 450:490] = 180  # type: ignore[index]
     request = gate_request(lost)
-    text = "\n".join(str(p) for p in request.messages[0].parts if not isinstance(p, Picture))
+    text = "\n".join(str(p) for p in request.messages[0].parts if not isinstance(p, PromptPicture))
     assert "no tip was found in it, so both show where the normal well's hangs" in text
     data = np.frombuffer(request.pictures[1].data, np.uint8)
     left, right = np.array_split(cv2.imdecode(data, cv2.IMREAD_GRAYSCALE), 2, axis=1)
@@ -223,7 +223,7 @@ def test_a_tip_that_was_not_found_is_sought_where_the_normal_wells_is() -> None:
 
 def test_lost_tips_and_missing_frames_are_told() -> None:
     request = gate_request(case(tips=["transit"], frames=["dispense"]))
-    text = "\n".join(str(p) for p in request.messages[0].parts if not isinstance(p, Picture))
+    text = "\n".join(str(p) for p in request.messages[0].parts if not isinstance(p, PromptPicture))
     assert (
         "transit; 100 µL should be in the tip; no tip was found in it, so it is the whole" in text
     )
@@ -258,7 +258,9 @@ def test_pictures_reach_a_service_and_replay_from_a_folder(
 ) -> None:
     answer = said("pass", "fail", "pass", routine_failure="no_tip")
     server.answers = [Answer(body=anthropic_message(answer, tool="gate"))]
-    live = AnthropicBackend("m", server.url, manner=Manner("sk-test-123456", trust_env=False))
+    live = AnthropicBackend(
+        "m", server.url, manner=RequestOptions("sk-test-123456", trust_env=False)
+    )
     first = VlmGate(RecordingBackend(live, tmp_path)).examine(case())
     blocks = server.seen[0].body["messages"][0]["content"]
     data = [base64.b64decode(b["source"]["data"]) for b in blocks if b["type"] == "image"]

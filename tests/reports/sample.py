@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from aegis_ot.checking import Broken, CheckedProtocol, CheckRun, Exploration, Problem
-from aegis_ot.preflight import Database, Report
+from aegis_ot.preflight import Report, RuleSet
 from aegis_ot.preflight.judging import RoleEvidence, Waived, Waiver
 from aegis_ot.preflight.roles import Inference
 from aegis_ot.preflight.rules import Common, Example, Examples, Family, RoleSpec, RuleSpec
@@ -48,7 +48,7 @@ FAMILY = Family(
 GENERIC = Family(
     "generic", "Transfers", "Anything.", (), FAMILY.roles, (rule("GEN-3", "volumes", scope="all"),)
 )
-DATABASE = Database((FAMILY, GENERIC), Common())
+DATABASE = RuleSet((FAMILY, GENERIC), Common())
 
 LINES = (
     'metadata = {"apiLevel": "2.15"}',

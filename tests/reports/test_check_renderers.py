@@ -12,9 +12,11 @@ import jsonschema
 import pytest
 from syrupy.assertion import SnapshotAssertion
 
+from aegis_ot._version import DOCUMENTATION
 from aegis_ot.checking import CheckedProtocol, CheckRun
+from aegis_ot.preflight import load_rules
 from aegis_ot.preflight.opinion import no_answer
-from aegis_ot.reasoning import Configuration, Judgement, Reply, State, Usage
+from aegis_ot.reasoning import AskingConfiguration, Judgement, Reply, State, TokenUsage
 from aegis_ot.reports import FORMATS, renderer
 from aegis_ot.reports.check_github import check_github
 from aegis_ot.reports.check_html import check_html
@@ -27,6 +29,8 @@ from aegis_ot.vocabulary import Finding, Opinion, Severity, Site, Undecided
 from .sample import CARRY, DATABASE, LINES, RUN, report, well
 from .sarif_constraints import SARIF
 
+ROOT = Path(__file__).resolve().parents[2]
+OWN_RULES = ROOT / "examples" / "rules" / "luciferase.json"
 EMPTY = CheckRun((), DATABASE, "1.2.3")
 
 
@@ -121,16 +125,17 @@ def test_github_carries_the_line_to_paste() -> None:
     assert 'Write: @guard(roles={"ntc": ["1:A1"]})' in shown
 
 
-def test_sarif_says_where_help_on_a_rule_is(tmp_path: Path) -> None:
-    families = tuple(
-        dataclasses.replace(one, path=str(tmp_path / f"{one.family}.json"))
-        for one in DATABASE.families
-    )
-    run = CheckRun((), dataclasses.replace(DATABASE, families=families), "1.2.3")
-    log = json.loads(check_sarif(run))
+def test_sarif_says_where_help_on_a_rule_is() -> None:
+    log = json.loads(check_sarif(CheckRun((), load_rules([OWN_RULES]), "1.2.3")))
     jsonschema.Draft202012Validator(SARIF).validate(log)
     rules = {rule["id"]: rule for rule in log["runs"][0]["tool"]["driver"]["rules"]}
-    assert rules["PCR-2"]["helpUri"] == (tmp_path / "pcr.json").as_uri() + "#PCR-2"
+    page, _, heading = rules["PCR-2"]["helpUri"].partition("#")
+    assert page == DOCUMENTATION + "rules/pcr.html"
+    text = (ROOT / "docs" / "rules" / "pcr.md").read_text("utf-8").lower()
+    assert f"## {heading.replace('pcr-2-', 'pcr-2 ')}\n" in text
+    assert f"site_url: {DOCUMENTATION}" in (ROOT / "mkdocs.yml").read_text("utf-8")
+    own = next(iter(set(rules) - {rule.id for rule in load_rules().rules}))
+    assert "helpUri" not in rules[own]
 
 
 def test_json_says_why_a_protocol_was_not_judged() -> None:
@@ -204,7 +209,7 @@ def test_html_is_self_contained_and_escaped() -> None:
 
 def _asked(reply: Reply, *findings: Finding, **more: object) -> CheckRun:
     judged = report(*findings, **more)
-    judgement = Judgement(Configuration.HYBRID, judged, reply)
+    judgement = Judgement(AskingConfiguration.HYBRID, judged, reply)
     checked = CheckedProtocol("f.py", judged, lines=LINES, judgement=judgement)
     return CheckRun((checked,), DATABASE, "1")
 
@@ -216,7 +221,7 @@ BEYOND = Finding(
 
 @pytest.mark.parametrize("name", FORMATS)
 def test_what_the_model_found_is_marked_and_what_the_checks_found_is_not(name: str) -> None:
-    reply = Reply(State.ANSWERED, "some-model", {}, usage=Usage(100, 300, 0, 50), seconds=2.0)
+    reply = Reply(State.ANSWERED, "some-model", {}, usage=TokenUsage(100, 300, 0, 50), seconds=2.0)
     mark = '"source": "model"' if name == "json" else "found by the model"
     for finding in (dataclasses.replace(CARRY, source="model"), BEYOND):
         shown = renderer(name)(_asked(reply, finding))

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from syrupy.assertion import SnapshotAssertion
 
-from aegis_ot.preflight import load_database
+from aegis_ot.preflight import load_rules
 from aegis_ot.preflight.checks import CHECKS
 from aegis_ot.preflight.rules import (
     Example,
@@ -41,13 +41,13 @@ def test_a_family_page(snapshot: SnapshotAssertion) -> None:
 
 
 def test_the_shipped_pages_are_up_to_date() -> None:
-    for name, text in rule_pages(load_database()).items():
+    for name, text in rule_pages(load_rules()).items():
         page = ROOT / "docs" / "rules" / name
         assert page.read_text(encoding="utf-8") == text, f"{name}: run `aegis-ot rules docs`"
 
 
 def test_every_parameter_of_every_check_is_told() -> None:
-    page = rule_pages(load_database())["checks.md"]
+    page = rule_pages(load_rules())["checks.md"]
     for name, check in CHECKS.items():
         part = page.split(f"\n## {name}\n")[1].split("\n## ")[0]
         told = dict(re.findall(r"^- `(\w+)`(?: \([^:]*\))?: (.+)$", part, re.MULTILINE))
@@ -70,14 +70,14 @@ def test_every_parameter_of_every_check_is_told() -> None:
     ],
 )
 def test_every_field_of_a_rule_file_is_told(title: str, cls: type) -> None:
-    page = rule_pages(load_database())["fields.md"]
+    page = rule_pages(load_rules())["fields.md"]
     part = page.split(f"\n## {title}\n")[1].split("\n## ")[0]
     told = dict(re.findall(r"^\| `(\w+)` \| .+ \| .+ \| (.+) \|$", part, re.MULTILINE))
     assert list(told) == [f.name for f in fields(cls) if not f.metadata.get("internal")]
 
 
 def test_the_fields_page_tells_kinds_and_defaults() -> None:
-    page = rule_pages(load_database())["fields.md"]
+    page = rule_pages(load_rules())["fields.md"]
     for row in (
         "| `roles` | by name: [role](#role) | required | ",
         '| `side` | `source`, `destination` or `any` | `"any"` | ',
@@ -89,7 +89,7 @@ def test_the_fields_page_tells_kinds_and_defaults() -> None:
 
 @pytest.mark.parametrize("page", ["README.md", "pcr.md", "fields.md"])
 def test_every_link_leads_somewhere(page: str) -> None:
-    pages = rule_pages(load_database())
+    pages = rule_pages(load_rules())
     anchors = {
         name: {
             re.sub(r"[^\w\- ]", "", line.lstrip("# ")).lower().replace(" ", "-")

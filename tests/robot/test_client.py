@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from urllib.parse import unquote
 
 import httpx
 import pytest
@@ -28,6 +29,7 @@ def uploaded(client: RobotClient, folder: Path, text: str) -> str:
         ("192.168.1.7", "http://192.168.1.7:31950"),
         (" robot.local:8080 ", "http://robot.local:8080"),
         ("http://robot/", "http://robot:31950"),
+        ("https://robot", "https://robot:32313"),
         ("fe80::1", "http://[fe80::1]:31950"),
         ("[fe80::1]:99", "http://[fe80::1]:99"),
     ],
@@ -191,4 +193,76 @@ def test_without_system_time_the_date_of_an_answer_serves(robot: RobotServer) ->
         return real.handle_request(request)
 
     with RobotClient(robot.url, transport=httpx.MockTransport(old)) as client:
-        assert client.clock() == pytest.approx(time.time(), abs=0.6)
+        before = time.time()
+        told = client.clock()
+        # On a busy machine the server's Date is some ticks old.
+        assert before - 3.0 <= told <= time.time() + 0.6
+
+
+@pytest.mark.parametrize(
+    ("status", "said"),
+    [
+        (401, "AEGIS_OT_ROBOT_TOKEN"),
+        (403, "does not allow this"),
+        (409, "another one has not"),
+        (451, "wants a reason for this .POST /runs.. Give it as AEGIS_OT_ROBOT_REASON"),
+    ],
+)
+def test_a_robot_that_lets_nobody_in_says_what_to_do(
+    status: int, said: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("AEGIS_OT_ROBOT_TOKEN", "s3cret")
+    answer = httpx.Response(status, json={"errors": [{"detail": "no scope runs.write"}]})
+    transport = httpx.MockTransport(lambda request: answer)
+    with RobotClient("robot", transport) as it, pytest.raises(RobotRefused, match=said) as refused:
+        it.create_run("protocol")
+    assert "no scope runs.write" in str(refused.value)
+    assert refused.value.status == status
+    if status == 403:
+        monkeypatch.delenv("AEGIS_OT_ROBOT_TOKEN")
+        with (
+            RobotClient("robot", transport) as it,
+            pytest.raises(RobotRefused, match="ROBOT_TOKEN"),
+        ):
+            it.create_run("protocol")
+
+
+def test_the_robots_token_goes_to_it_and_into_no_message(
+    monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    monkeypatch.setenv("AEGIS_OT_ROBOT_TOKEN", "s3cret")
+    seen: list[str] = []
+
+    def answer(request: httpx.Request) -> httpx.Response:
+        seen.append(request.headers.get("authorization", ""))
+        return httpx.Response(403, json={})
+
+    caplog.set_level("DEBUG")
+    transport = httpx.MockTransport(answer)
+    with RobotClient("robot", transport) as it, pytest.raises(RobotRefused) as refused:
+        it.health()
+    assert seen == ["Bearer s3cret"]
+    assert "s3cret" not in str(refused.value) + caplog.text
+
+
+def test_a_robot_that_wants_a_reason_gets_one(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("AEGIS_OT_ROBOT_TOKEN", "s3cret")
+    seen: list[str] = []
+
+    def answer(request: httpx.Request) -> httpx.Response:
+        seen.append(request.headers.get("opentrons-user-notes", ""))
+        return httpx.Response(
+            422, json={"errors": [{"detail": "Opentrons-User-Notes is required"}]}
+        )
+
+    for reason in ("", "Charge 7, Müller"):
+        monkeypatch.setenv("AEGIS_OT_ROBOT_REASON", reason)
+        client = RobotClient("robot", httpx.MockTransport(answer))
+        with client, pytest.raises(RobotRefused, match="wants a reason"):
+            client.act("run", "play")
+    assert [unquote(one) for one in seen] == ["aegis-ot guards this run", "Charge 7, Müller"]
+    assert all(one.isascii() for one in seen)
+    monkeypatch.delenv("AEGIS_OT_ROBOT_TOKEN")
+    with RobotClient("robot", httpx.MockTransport(answer)) as it, pytest.raises(RobotRefused):
+        it.act("run", "play")
+    assert seen[-1] == ""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -17,7 +18,7 @@ import httpx
 import pytest
 
 from aegis_ot import __version__
-from aegis_ot.robot import RobotClient
+from aegis_ot.robot import RobotClient, installing
 from aegis_ot.robot.wheel import write_wheel
 
 from ..cli.commands import Command, Result
@@ -57,8 +58,14 @@ def there(one_robot: Robot, monkeypatch: pytest.MonkeyPatch) -> Iterator[Robot]:
         yield one_robot
 
 
+@pytest.fixture(scope="module")
+def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return write_wheel(tmp_path_factory.mktemp("wheel"))
+
+
 @pytest.fixture
-def install(there: Robot, aegis: Command) -> Install:
+def install(there: Robot, aegis: Command, wheel: Path, monkeypatch: pytest.MonkeyPatch) -> Install:
+    monkeypatch.setattr(installing, "write_wheel", lambda folder: Path(shutil.copy(wheel, folder)))
     robot = f"127.0.0.1:{there.no_server}"
     reached = ("--user", there.user, "--port", there.port, "--key", there.key)
     return lambda *more: aegis("install", "--robot", robot, *reached, *more)
@@ -191,8 +198,7 @@ def test_a_server_that_does_not_come_up_is_no_reason_to_leave_it(
     assert "logging in" in done.out
 
 
-def test_the_wheel_is_pure_and_complete(tmp_path: Path) -> None:
-    wheel = write_wheel(tmp_path)
+def test_the_wheel_is_pure_and_complete(wheel: Path, tmp_path: Path) -> None:
     assert wheel.stat().st_size < 600_000
     with zipfile.ZipFile(wheel) as files:
         names = files.namelist()
@@ -203,7 +209,7 @@ def test_the_wheel_is_pure_and_complete(tmp_path: Path) -> None:
     assert not any(name.startswith(("aegis_ot/sidecar", "aegis_ot/vision")) for name in names)
     tried = (
         "import aegis_ot.guarded_run, aegis_ot.preflight.check_protocol as check\n"
-        "print(check.load_database())"
+        "print(check.load_rules())"
     )
     subprocess.run([sys.executable, "-c", tried], cwd=tmp_path / "site", check=True,
                    capture_output=True, env={"PYTHONPATH": str(tmp_path / "site")})  # fmt: skip

@@ -7,7 +7,7 @@ from typing import Any
 import httpx
 import pytest
 
-from aegis_ot.instrumentation import Pipette
+from aegis_ot.instrumentation import PipetteInfo
 from aegis_ot.robot import RobotClient
 from aegis_ot.robot.deck import Deck
 from aegis_ot.robot.operations import OperationReader
@@ -20,8 +20,8 @@ from aegis_ot.vocabulary import WellRef
 class OneFlex:
     """A deck with one pipette on which nothing is a trash."""
 
-    def pipette(self, _id: str) -> Pipette:
-        return Pipette("left", "flex_1channel_1000", "left", 1, 1000.0)
+    def pipette(self, _id: str) -> PipetteInfo:
+        return PipetteInfo("left", "flex_1channel_1000", "left", 1, 1000.0)
 
     def wells(self, labware: str, well: str, _channels: int) -> tuple[WellRef, ...]:
         return (WellRef(labware, well, labware),)

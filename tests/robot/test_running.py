@@ -78,6 +78,20 @@ def test_a_good_protocol_runs_and_is_reported(
     assert report["sidecar"]["counts"]["wells"] == 2
 
 
+def test_a_run_that_is_not_as_rehearsed_is_no_clean_one(
+    aegis: Command, robot: RobotServer, tmp_path: Path
+) -> None:
+    live = "plate.wells()[8:10][:: 1 if protocol.is_simulating() else -1]"
+    text = GOOD.replace("plate.wells()[8:10]", live)
+    with sidecar(tmp_path) as url:
+        done = aegis(
+            "run", written(guarded(text, url)), "--robot", robot.url, "--yes", "--sidecar", url
+        )
+    assert done.code == 1, done.out + done.err
+    assert "2 deliveries: 2 pass" in done.out
+    assert "was not as rehearsed" in done.out
+
+
 def test_a_failed_well_is_told_and_the_person_resumes(
     aegis: Command, robot: RobotServer, tmp_path: Path, pressing: dict[str, str]
 ) -> None:
@@ -153,8 +167,8 @@ def test_ctrl_c_pauses_and_a_second_one_leaves_the_run_paused(
         if command.kind == "waitForDuration" and not screen._interrupted:
             signal.raise_signal(signal.SIGINT)
 
-    def waits(screen: robot_screen.TerminalScreen, text: str) -> None:
-        waited(screen, text)
+    def waits(screen: robot_screen.TerminalScreen, text: str, recovery: bool = False) -> None:
+        waited(screen, text, recovery)
         if text:
             signal.raise_signal(signal.SIGINT)
 
@@ -202,25 +216,14 @@ def test_labware_and_parameters_of_its_own_go_with_it(aegis: Command, robot: Rob
     assert kinds.count("aspirate") == 3
 
 
-def test_offsets_that_the_last_run_of_a_labware_had_are_not_lost_in_silence(
+def test_a_package_that_the_robot_lacks_is_named_with_what_to_do(
     aegis: Command, robot: RobotServer
 ) -> None:
-    protocol = written(GOOD)
-    assert aegis("run", protocol, "--robot", robot.url, "--yes").code == 0
-    (first,) = robot.runs.values()
-    plate = "opentrons/corning_96_wellplate_360ul_flat/2"
-    offset = {"definitionUri": plate, "location": {"slotName": "2"}, "vector": {"x": 0, "y": 0.4}}
-    first.offsets.append(offset | {"location": {"slotName": "5"}})  # of another slot
-    assert aegis("run", protocol, "--robot", robot.url, "--yes").code == 0
-    first.offsets.append(offset)  # the second run had none: it was made here
-    refused = aegis("run", protocol, "--robot", robot.url, "--yes")
-    assert refused.code == 2
-    assert "corning_96_wellplate_360ul_flat in slot 2 (0, 0.4, 0 mm)" in refused.err
-    assert "--offsets none" in refused.err
-    assert len(robot.runs) == 2
-    done = aegis("run", protocol, "--robot", robot.url, "--yes", "--offsets", "none")
-    assert done.code == 0
-    assert aegis("run", protocol, "--robot", robot.url, "--yes").code == 2, "still measured"
+    text = GOOD.replace("    tips =", "    from aegis_ot.nothing import there\n    tips =")
+    done = aegis("run", written(text), "--robot", robot.url, "--yes")
+    assert done.code == 1
+    assert "aegis-ot is not on this robot" in done.out
+    assert "aegis-ot wrap protocol.py" in done.out
 
 
 def test_without_a_person_to_ask_the_run_needs_a_yes(aegis: Command, robot: RobotServer) -> None:

@@ -51,7 +51,7 @@ def test_a_command_that_fails_keeps_what_it_said(shell: Shell) -> None:
 
 
 def test_nobody_listens(robot: Robot, shell: Shell) -> None:
-    with pytest.raises(RobotError, match=r"Connection refused.*not switched on"):
+    with pytest.raises(RobotError, match=r"Connection refused.*not switched on.*aegis-ot wrap"):
         replace(shell, port=robot.no_server).run("true")
 
 
@@ -89,14 +89,12 @@ def test_a_robot_switched_off_half_way(robot: Robot, shell: Shell) -> None:
 
 def test_what_takes_too_long_is_given_up(shell: Shell, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(ssh, "CONNECT_S", 1)
-    began = time.monotonic()
     with pytest.raises(RobotError, match=r"did not finish within 0\.5 s"):
         shell.run("sleep 20", limit_s=0.5)
     with socket.create_server(("127.0.0.1", 0)) as silent:  # takes the call, and says nothing
         port = silent.getsockname()[1]
         with pytest.raises(RobotError, match=r"timed out.*switched on"):
             replace(shell, port=port).run("true")
-    assert time.monotonic() - began < 10.0
 
 
 def test_no_ssh_here(shell: Shell, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:

@@ -17,17 +17,17 @@ import pytest
 from aegis_ot.account import Situation, situations
 from aegis_ot.errors import SidecarUnreachable
 from aegis_ot.robot import Analysis, RobotClient, watching
-from aegis_ot.robot.deck import channels_of, largest_volume
 from aegis_ot.robot.moments import PastLink, moment_of_transit
 from aegis_ot.robot.run_report import run_report
 from aegis_ot.robot.running import RobotRun
 from aegis_ot.robot.shapes import Command as RobotCommand
 from aegis_ot.robot.verdicts import VerdictReader, WellVerdict
 from aegis_ot.robot.watching import LOSSES, WatchPolicies, await_run, watch_run
-from aegis_ot.runtime.link import Captured
+from aegis_ot.runtime.sidecar_client import Acknowledgement
 from aegis_ot.sidecar import SidecarConfig, running_sidecar
 from aegis_ot.sidecar.analysis import Judged
 from aegis_ot.vocabulary import Keyframe, Outcome, Verdict
+from aegis_ot.vocabulary.pipette_names import channels_of, largest_volume
 
 from ..cli.commands import Command
 from ..sidecar.helpers import Robot, StubAnalyser, StubCamera, StubRun
@@ -68,7 +68,7 @@ class Shown:
     def says(self, text: str) -> None:
         self.said.append(text)
 
-    def waits(self, text: str) -> None:
+    def waits(self, text: str, recovery: bool = False) -> None:
         self.waited.append(text)
 
     def judged(self, verdict: WellVerdict) -> None:
@@ -87,7 +87,7 @@ class LosingLink(PastLink):
 
     gone = False
 
-    def keyframe(self, keyframe: Keyframe, timeout_s: float, ago_s: float = 0.0) -> Captured:
+    def keyframe(self, keyframe: Keyframe, timeout_s: float, ago_s: float = 0.0) -> Acknowledgement:
         self.gone = self.gone or keyframe.sequence == 6
         self._must_be_there()
         return super().keyframe(keyframe, timeout_s, ago_s)
@@ -338,7 +338,7 @@ def test_the_last_verdict_is_waited_for_however_long_the_sidecar_works(
     assert run.status == "succeeded"
     assert [v.state for v in run.verdicts.values()] == ["pass"] * 3 + ["fail"]
     report = run_report(run)
-    assert report["sidecar"]["counts"] == {"pass": 3, "fail": 1, "wells": 4}
+    assert report["sidecar"]["counts"] == {"pass": 3, "fail": 1, "wells": 4, "deliveries": 4}
 
 
 def test_a_verdict_that_never_comes_leaves_its_well_undecided(

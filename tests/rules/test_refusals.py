@@ -11,10 +11,10 @@ import jsonschema
 import pytest
 
 from aegis_ot.errors import RuleError
-from aegis_ot.preflight import load_database
+from aegis_ot.preflight import load_rules
 from aegis_ot.reports.rule_schema import family_schema
 
-ELISA = (Path(__file__).parents[2] / "examples" / "rules" / "elisa.json").read_text("utf-8")
+OWN = (Path(__file__).parents[2] / "examples" / "rules" / "luciferase.json").read_text("utf-8")
 CARRY = {"check": "carry", "carried": ["sample"], "into": ["sample"]}
 SAME = {"check": "uniform_volume", "wells": ["assay_well"], "liquid": ["stop"]}
 
@@ -31,7 +31,7 @@ def role(**fields: object) -> Change:
 
 
 def changed(change: Change) -> Data:
-    data = json.loads(ELISA)
+    data = json.loads(OWN)
     change(data)
     return data
 
@@ -40,32 +40,32 @@ def refusal(folder: Path, text: str | bytes) -> str:
     path = folder / "mine.json"
     path.write_bytes(text.encode("utf-8") if isinstance(text, str) else text)
     with pytest.raises(RuleError) as caught:
-        load_database([path])
+        load_rules([path])
     return str(caught.value)
 
 
 REFUSED_BY_BOTH = [
     (
         rule(checks=[CARRY | {"via_destination": "sometimes"}]),
-        "rule ELISA-1: checks[0]: via_destination: "
+        "rule LUC-1: checks[0]: via_destination: "
         "expected only, not or an empty text, found 'sometimes'",
     ),
     (
         rule(checks=[SAME | {"tolerance": 0.05}]),
-        "rule ELISA-1: checks[0]: unknown field 'tolerance'; known are wells, liquid",
+        "rule LUC-1: checks[0]: unknown field 'tolerance'; known are wells, liquid",
     ),
     (
         rule(checks=[CARRY, CARRY | {"via_destination": None}]),
-        "rule ELISA-1: checks[1]: via_destination: expected only, not or an empty text, found null",
+        "rule LUC-1: checks[1]: via_destination: expected only, not or an empty text, found null",
     ),
-    (rule(checks=[]), "rule ELISA-1: checks: expected at least one, found an empty list"),
-    (rule(severity="fatal"), "rule ELISA-1: severity: expected error or warning, found 'fatal'"),
-    (rule(scope="galaxy"), "rule ELISA-1: scope: expected family or all, found 'galaxy'"),
+    (rule(checks=[]), "rule LUC-1: checks: expected at least one, found an empty list"),
+    (rule(severity="fatal"), "rule LUC-1: severity: expected error or warning, found 'fatal'"),
+    (rule(scope="galaxy"), "rule LUC-1: scope: expected family or all, found 'galaxy'"),
     (rule(id=""), "rules[0]: id: expected a name of letters, digits,"),
-    (rule(id="ELISA 1"), "rule ELISA 1: id: expected a name of letters, digits, '_', '-' and '.',"),
-    (rule(id="ELISA-1\n"), "found 'ELISA-1\\n'"),
+    (rule(id="OWN 1"), "rule OWN 1: id: expected a name of letters, digits, '_', '-' and '.',"),
+    (rule(id="LUC-1\n"), "found 'LUC-1\\n'"),
     (rule(id="A,B"), "found 'A,B'"),
-    (lambda d: d.update(family="../elisa"), "family: expected a name of letters, digits,"),
+    (lambda d: d.update(family="../luciferase"), "family: expected a name of letters, digits,"),
     (lambda d: d["roles"].update({"a|b": {"title": "a"}}), "roles: expected a name of letters,"),
     (role(words=[""]), "roles.stop: words[0]: expected a word or phrase, found ''"),
     (role(never=["stop", " "]), "roles.stop: never[1]: expected a word or phrase, found ' '"),
@@ -114,20 +114,20 @@ def test_it_is_refused_by_the_published_schema_as_well(
         ),
         (
             rule(unless_reported=["PCR-1", "NOPE-9"]),
-            "rule ELISA-1: unless_reported: there is no rule 'NOPE-9'; known are BRD-1, ",
+            "rule LUC-1: unless_reported: there is no rule 'NOPE-9'; known are BRD-1, ",
         ),
         (
-            rule(unless_reported=["ELISA-1"]),
-            "rule ELISA-1: unless_reported: they go in a circle: ELISA-1 -> ELISA-1",
+            rule(unless_reported=["LUC-1"]),
+            "rule LUC-1: unless_reported: they go in a circle: LUC-1 -> LUC-1",
         ),
         (
             lambda d: [
-                d["rules"][0].update(unless_reported=["ELISA-2"]),
-                d["rules"][1].update(unless_reported=["PCR-2", "ELISA-1"]),
+                d["rules"][0].update(unless_reported=["LUC-2"]),
+                d["rules"][1].update(unless_reported=["PCR-2", "LUC-1"]),
             ],
-            "rule ELISA-2: unless_reported: they go in a circle: ELISA-2 -> ELISA-1 -> ELISA-2",
+            "rule LUC-2: unless_reported: they go in a circle: LUC-2 -> LUC-1 -> LUC-2",
         ),
-        (rule(checks=[{"check": [[]]}]), "rule ELISA-1: checks[0]: check: there is no check with"),
+        (rule(checks=[{"check": [[]]}]), "rule LUC-1: checks[0]: check: there is no check with"),
     ],
 )
 def test_names_must_lead_somewhere(change: Change, message: str, tmp_path: Path) -> None:
@@ -137,12 +137,12 @@ def test_names_must_lead_somewhere(change: Change, message: str, tmp_path: Path)
 
 
 def test_parents_may_meet_again_above(tmp_path: Path) -> None:
-    data = changed(role(parents=["antibody", "substrate"]))
-    for name in ("antibody", "substrate"):
+    data = changed(role(parents=["lysis", "substrate"]))
+    for name in ("lysis", "substrate"):
         data["roles"][name]["parents"] = ["sample"]
     path = tmp_path / "mine.json"
     path.write_text(json.dumps(data), encoding="utf-8")
-    assert load_database([path]).family("elisa").roles["stop"].parents == ("antibody", "substrate")
+    assert load_rules([path]).family("luciferase").roles["stop"].parents == ("lysis", "substrate")
 
 
 @pytest.mark.parametrize("number", ["NaN", "Infinity", "-Infinity", "1e999", "1" + 400 * "0"])
@@ -160,12 +160,12 @@ def test_a_number_is_finite(change: Change, place: str, number: str, tmp_path: P
 
 def test_a_field_that_is_written_twice_is_refused(tmp_path: Path) -> None:
     twice = '"severity": "error", "severity": "warning"'
-    told = refusal(tmp_path, ELISA.replace('"severity": "error"', twice, 1))
-    assert told == "mine.json: rule ELISA-1: field 'severity' is written twice"
+    told = refusal(tmp_path, OWN.replace('"severity": "error"', twice, 1))
+    assert told == "mine.json: rule LUC-1: field 'severity' is written twice"
     twice = '"check": "receives", "check": "receives"'
-    told = refusal(tmp_path, ELISA.replace('"check": "receives"', twice, 1))
-    assert told == "mine.json: rule ELISA-1: checks[0]: field 'check' is written twice"
-    told = refusal(tmp_path, ELISA.replace('"stop": {', '"stop": {"title": "x"}, "stop": {', 1))
+    told = refusal(tmp_path, OWN.replace('"check": "receives"', twice, 1))
+    assert told == "mine.json: rule LUC-1: checks[0]: field 'check' is written twice"
+    told = refusal(tmp_path, OWN.replace('"stop": {', '"stop": {"title": "x"}, "stop": {', 1))
     assert told == "mine.json: roles: field 'stop' is written twice"
 
 
@@ -177,7 +177,7 @@ def test_deep_nesting_is_refused(text: str, tmp_path: Path) -> None:
 
 
 def test_a_file_that_is_not_utf_8_is_refused(tmp_path: Path) -> None:
-    assert refusal(tmp_path, ELISA.encode("utf-16")).startswith(
+    assert refusal(tmp_path, OWN.encode("utf-16")).startswith(
         "mine.json: is not JSON: it is not UTF-8 text ("
     )
 
@@ -185,20 +185,20 @@ def test_a_file_that_is_not_utf_8_is_refused(tmp_path: Path) -> None:
 def test_half_a_character_is_refused(tmp_path: Path) -> None:
     told = refusal(tmp_path, json.dumps(changed(rule(fix="\ud83d"))))
     assert told == (
-        "mine.json: rule ELISA-1: fix: expected a text, found half of a character in '\\ud83d'"
+        "mine.json: rule LUC-1: fix: expected a text, found half of a character in '\\ud83d'"
     )
 
 
 def test_the_mark_that_windows_puts_first_is_no_fault(tmp_path: Path) -> None:
     path = tmp_path / "mine.json"
-    path.write_text(ELISA, encoding="utf-8-sig")
-    assert load_database([path]).family("elisa").rules
+    path.write_text(OWN, encoding="utf-8-sig")
+    assert load_rules([path]).family("luciferase").rules
 
 
 def test_there_is_one_default_family(tmp_path: Path) -> None:
     told = refusal(tmp_path, json.dumps(changed(lambda d: d.update(default=True))))
     assert f"{tmp_path / 'mine.json'}: default: the family generic in " in told
-    assert told.endswith("is the default already, and elisa cannot be a second one")
+    assert told.endswith("is the default already, and luciferase cannot be a second one")
 
 
 @pytest.mark.parametrize(
@@ -218,7 +218,7 @@ def test_a_rule_of_another_file_may_be_named(tmp_path: Path) -> None:
     other = changed(rule(id="OTHER-1")) | {"family": "other"}
     other["rules"] = other["rules"][:1]
     (tmp_path / "other.json").write_text(json.dumps(other), encoding="utf-8")
-    assert load_database([tmp_path]).rule("ELISA-1")[1].unless_reported == ("OTHER-1",)
+    assert load_rules([tmp_path]).rule("LUC-1")[1].unless_reported == ("OTHER-1",)
 
 
 @pytest.mark.parametrize("other", ["", "notes.txt", "family.schema.json"])
@@ -226,5 +226,5 @@ def test_a_folder_without_rules_is_refused(other: str, tmp_path: Path) -> None:
     if other:
         (tmp_path / other).write_text("{}", encoding="utf-8")
     with pytest.raises(RuleError) as caught:
-        load_database([tmp_path])
+        load_rules([tmp_path])
     assert str(caught.value) == f"{tmp_path}: there is no rule file (*.json) in this folder"

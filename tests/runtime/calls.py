@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-Case = tuple[Callable[[Any], None], str, str, dict[str, Any]]
-CASES: dict[str, Case] = {}
+RuleContext = tuple[Callable[[Any], None], str, str, dict[str, Any]]
+CASES: dict[str, RuleContext] = {}
 
 
 def case(api: str = "2.15", robot: str = "OT-2", **settings: Any) -> Any:

@@ -42,7 +42,6 @@ class LiveRun:
     Attributes:
         watcher: Once the protocol has begun.
         error: What the protocol raised, as the protocol saw it.
-        ended_at: ``time.monotonic`` at which the run was over.
     """
 
     def __init__(
@@ -62,7 +61,6 @@ class LiveRun:
         self.watcher: Watcher | None = None
         self.error: BaseException | None = None
         self.crash: BaseException | None = None
-        self.ended_at = 0.0
         self.commands: list[Any] = []
 
     def start(self) -> LiveRun:
@@ -76,11 +74,8 @@ class LiveRun:
     def pause(self) -> None:
         self._press("pause")
 
-    def stop(self) -> float:
-        """Press stop; the time at which it was pressed."""
-        pressed = time.monotonic()
+    def stop(self) -> None:
         self._press("stop")
-        return pressed
 
     def retry(self) -> None:
         """Leave error recovery: the protocol goes on after the command that failed."""
@@ -149,8 +144,6 @@ class LiveRun:
         except BaseException as error:
             self.error = error
             raise
-        finally:
-            self.ended_at = time.monotonic()
 
     def _text(self, key: str) -> str:
         if isinstance(self._protocol, str):

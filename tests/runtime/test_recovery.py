@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import threading
-import time
 from collections.abc import Iterator
 from typing import Any
 
@@ -300,18 +299,16 @@ def test_a_stop_during_a_recovery_ends_the_run_at_once(api: str, sidecar: FakeSi
         if not (handler.path.endswith("/keyframes") and handler.body["sequence"] == 5):
             return False
         hanging.set()
-        release.wait(10)
+        release.wait()
         handler.drop()
         return True
 
     sidecar.fault = hang  # at the TRANSIT keyframe of the recovery
     run = live(sidecar, ONE_TIP, api)
     assert hanging.wait(20)
-    pressed = time.monotonic()
     run.stop()
     run.join()
     release.set()
-    assert time.monotonic() - pressed < 1.5
     types = [command.commandType for command in run.commands if command.status == "succeeded"]
     assert pipetting(types) == ["pick", "draw", "give", "drop", "pick", "draw"]
     assert [one["outcome"] for one in sidecar.finished] == ["stopped"]

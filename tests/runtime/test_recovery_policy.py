@@ -7,9 +7,9 @@ from typing import Any
 
 import pytest
 
-from aegis_ot.instrumentation import Operation, OperationKind, Pipette
+from aegis_ot.instrumentation import Operation, OperationKind, PipetteInfo
 from aegis_ot.runtime.recovery_policy import NotAllowed, Plan, plan_recovery
-from aegis_ot.runtime.strokes import Delivery
+from aegis_ot.runtime.strokes import RecordedDelivery
 from aegis_ot.vocabulary import (
     FailureType,
     Gate,
@@ -21,7 +21,7 @@ from aegis_ot.vocabulary import (
     WellRef,
 )
 
-SINGLE = Pipette("left", "p300_single_gen2", "left", 1, 300.0)
+SINGLE = PipetteInfo("left", "p300_single_gen2", "left", 1, 300.0)
 SOURCE, THERE, OTHER = (WellRef("plate", name, slot="2") for name in ("A1", "A2", "A3"))
 
 
@@ -53,7 +53,7 @@ POST = Keyframe(
     "run", 3, 0, KeyframeKind.POST_DISPENSE, "p300_single_gen2", "left", 1, "1:A1",
     (SOURCE,), (THERE,), 100.0, 0.0, 300.0,
 )  # fmt: skip
-GOOD = Delivery(POST, (DRAW, GIVE))
+GOOD = RecordedDelivery(POST, (DRAW, GIVE))
 
 
 def verdict(kind: FailureType, **more: Any) -> Verdict:
@@ -76,7 +76,9 @@ def volumes(plan: Plan) -> list[tuple[str, float]]:
 def test_a_retry_does_all_of_it_again() -> None:
     mix = op(OperationKind.DISPENSE, THERE, 30.0, mixing=True)
     touch = op(OperationKind.TOUCH_TIP, THERE)
-    plan = plan_recovery("retry", Delivery(POST, (DRAW, GIVE, mix), (touch,)), EMPTY, DROP, None)
+    plan = plan_recovery(
+        "retry", RecordedDelivery(POST, (DRAW, GIVE, mix), (touch,)), EMPTY, DROP, None
+    )
     assert volumes(plan) == [
         ("aspirate", 100.0), ("dispense", 100.0), ("dispense", 30.0), ("touch_tip", 0.0),
     ]  # fmt: skip
@@ -96,7 +98,9 @@ def test_a_top_up_delivers_what_is_missing_and_mixes_like_the_protocol() -> None
     gap = op(OperationKind.AIR_GAP, SOURCE, 10.0)
     mix = op(OperationKind.ASPIRATE, THERE, 30.0, mixing=True)
     given = replace(GIVE, volume=110.0)
-    plan = plan_recovery("top_up", Delivery(POST, (DRAW, gap, given, mix)), SHORT, DROP, None)
+    plan = plan_recovery(
+        "top_up", RecordedDelivery(POST, (DRAW, gap, given, mix)), SHORT, DROP, None
+    )
     assert volumes(plan) == [("aspirate", 40.0), ("dispense", 40.0), ("aspirate", 30.0)]
     assert plan.missing_ul == 40.0
 
@@ -135,12 +139,12 @@ FROM_NOWHERE = replace(DRAW, in_place=True)
         ("retry", GOOD, EMPTY, replace(NEXT, core=lambda: LOADED), "air"),
         ("retry", replace(GOOD, keyframe=replace(POST, expected_ul=50.0)), EMPTY, DROP, "meant"),
         ("retry", replace(GOOD, keyframe=replace(POST, destinations=())), EMPTY, DROP, "one dest"),
-        ("retry", Delivery(POST, (GIVE,)), EMPTY, DROP, "for this well alone"),
-        ("retry", Delivery(POST, (DRAW, DRAW, GIVE)), EMPTY, DROP, "for this well alone"),
-        ("retry", Delivery(POST, (FROM_NOWHERE, GIVE)), EMPTY, DROP, "where the tip stood"),
+        ("retry", RecordedDelivery(POST, (GIVE,)), EMPTY, DROP, "for this well alone"),
+        ("retry", RecordedDelivery(POST, (DRAW, DRAW, GIVE)), EMPTY, DROP, "for this well alone"),
+        ("retry", RecordedDelivery(POST, (FROM_NOWHERE, GIVE)), EMPTY, DROP, "where the tip stood"),
         (
             "retry",
-            Delivery(POST, (DRAW, op(OperationKind.TOUCH_TIP, OTHER), GIVE)),
+            RecordedDelivery(POST, (DRAW, op(OperationKind.TOUCH_TIP, OTHER), GIVE)),
             EMPTY,
             DROP,
             "other places",
@@ -148,24 +152,36 @@ FROM_NOWHERE = replace(DRAW, in_place=True)
         ("retry", GOOD, replace(EMPTY, measured_ul=30.0), DROP, "30 µL were drawn"),
         ("retry", GOOD, replace(STUCK, measured_ul=60.0), DROP, "60 µL are left"),
         ("retry", replace(GOOD, since=(GIVE,)), STUCK, DROP, "moved liquid since"),
-        ("retry", Delivery(POST, (DRAW, replace(GIVE, method=""))), EMPTY, DROP, "cannot be done"),
+        (
+            "retry",
+            RecordedDelivery(POST, (DRAW, replace(GIVE, method=""))),
+            EMPTY,
+            DROP,
+            "cannot be done",
+        ),
         ("top_up", GOOD, replace(SHORT, left_ul=None), DROP, "could not be measured"),
         ("top_up", GOOD, replace(SHORT, left_sigma_ul=8.0), DROP, "too uncertain"),
         ("top_up", GOOD, replace(SHORT, measured_ul=140.0), DROP, "another measure"),
         ("top_up", GOOD, replace(SHORT, measured_ul=5.0, left_ul=5.0), DROP, "do not tell"),
         (
             "top_up",
-            Delivery(POST, (replace(DRAW, volume=50.0), replace(DRAW, volume=50.0), GIVE)),
+            RecordedDelivery(POST, (replace(DRAW, volume=50.0), replace(DRAW, volume=50.0), GIVE)),
             SHORT,
             DROP,
             "several strokes",
         ),
-        ("top_up", Delivery(POST, (DRAW, replace(GIVE, in_place=True))), SHORT, DROP, "in place"),
+        (
+            "top_up",
+            RecordedDelivery(POST, (DRAW, replace(GIVE, in_place=True))),
+            SHORT,
+            DROP,
+            "in place",
+        ),
     ],
 )
 def test_what_is_not_certain_is_refused_with_a_reason(
     action: str,
-    delivery: Delivery | None,
+    delivery: RecordedDelivery | None,
     verdict: Verdict,
     boundary: Operation | None,
     why: str,
@@ -185,4 +201,4 @@ def test_what_is_not_certain_is_refused_with_a_reason(
 def test_what_nobody_measured_is_not_given_twice(told: dict[str, Any]) -> None:
     seen = verdict(FailureType.NO_ASPIRATE, **told)
     with pytest.raises(NotAllowed, match="nothing was measured"):
-        plan_recovery("retry", Delivery(POST, (DRAW, GIVE)), seen, DROP, None)
+        plan_recovery("retry", RecordedDelivery(POST, (DRAW, GIVE)), seen, DROP, None)

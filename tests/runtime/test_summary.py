@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import platform
 from dataclasses import replace
 
+import pytest
+
+from aegis_ot.runtime.descriptions import about_run
 from aegis_ot.runtime.summary import WatchSummary
 from aegis_ot.vocabulary import (
     ChannelOutcome,
@@ -46,3 +50,13 @@ def test_a_delivery_without_a_verdict_is_undecided() -> None:
     assert summary.text().startswith(
         "Layer 2 watched 3 deliveries: 1 passed, 2 undecided (B1, C1), 1 of them without a verdict;"
     )
+
+
+def test_a_simulation_does_not_say_that_the_run_is_unwatched() -> None:
+    assert "Layer 2 watches the run itself" in WatchSummary(watching=False).text()
+
+
+def test_a_live_run_is_told_by_the_robots_own_name(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("DEV_ROBOT_NAME", "blue-robot")
+    assert about_run(None, "run", "p.py", False)["robot_name"] == "blue-robot"
+    assert about_run(None, "run", "p.py", True)["robot_name"] == platform.node()

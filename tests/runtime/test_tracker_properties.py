@@ -8,16 +8,16 @@ from typing import Any
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from aegis_ot.instrumentation import Event, EventKind, Operation, OperationKind, Pipette
-from aegis_ot.runtime.hand import in_place
+from aegis_ot.instrumentation import Event, EventKind, Operation, OperationKind, PipetteInfo
+from aegis_ot.runtime.pipette_state import in_place
 from aegis_ot.runtime.steps import Abandon, Capture, Hold, Lift, Step
 from aegis_ot.runtime.tracker import Tracker
 from aegis_ot.vocabulary import KeyframeKind, WellRef
 
 K = OperationKind
 WELLS = [WellRef("plate", name) for name in ("A1", "B1", "C1")]
-LEFT = Pipette("left", "p300_single_gen2", "left", 1, 300.0)
-RIGHT = Pipette("right", "p20_single_gen2", "right", 1, 20.0)
+LEFT = PipetteInfo("left", "p300_single_gen2", "left", 1, 300.0)
+RIGHT = PipetteInfo("right", "p20_single_gen2", "right", 1, 20.0)
 ENTERING = {K.ASPIRATE, K.DISPENSE, K.BLOW_OUT, K.TOUCH_TIP, K.MOVE}
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import httpx
@@ -175,7 +175,7 @@ class Robot:
         for sequence in range(4 * trajectory, 4 * trajectory + 4):
             assert self.send(sequence).status_code == 200
 
-    def verdict(self, trajectory: int, wait: float = 1.0) -> dict[str, Any]:
+    def verdict(self, trajectory: int, wait: float = 10.0) -> dict[str, Any]:
         answer = self.http.get(
             f"/v1/runs/{self.run}/trajectories/{trajectory}/verdict", params={"wait": wait}
         )
@@ -189,3 +189,11 @@ class Robot:
     def overview(self) -> dict[str, Any]:
         body: dict[str, Any] = self.http.get(f"/v1/runs/{self.run}").json()
         return body
+
+
+def until(condition: Callable[[], bool], seconds: float = 20.0) -> None:
+    """Wait for what another thread of the sidecar will have done."""
+    deadline = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < deadline, "it did not come"
+        time.sleep(0.01)

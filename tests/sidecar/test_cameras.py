@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import base64
-import statistics
 import threading
 import time
 from collections.abc import Callable, Iterator
@@ -75,9 +74,7 @@ def test_the_first_frame_exposed_after_the_moment(hand: tuple[HandSource, FreeRu
 def test_a_waiting_keyframe_is_woken_by_the_frame(hand: tuple[HandSource, FreeRunning]) -> None:
     source, camera = hand
     threading.Timer(0.1, lambda: source.put(Raw(5.0, make_jpeg()))).start()
-    begun = time.monotonic()
-    assert camera.frame_after(1.0, 5.0).exposed_at == 5.0
-    assert time.monotonic() - begun < 1.0
+    assert camera.frame_after(1.0, 600.0).exposed_at == 5.0
 
 
 def test_no_frame_in_time_is_told(hand: tuple[HandSource, FreeRunning]) -> None:
@@ -141,10 +138,8 @@ def test_a_closed_camera_wakes_who_waits() -> None:
     source = HandSource()
     camera = FreeRunning("hand", source.open)
     threading.Timer(0.1, lambda: (source.put(CameraError("over")), camera.close())).start()
-    begun = time.monotonic()
     with pytest.raises(CameraError):
-        camera.frame_after(1.0, 10.0)
-    assert time.monotonic() - begun < 3
+        camera.frame_after(1.0, 600.0)
 
 
 # Over HTTP
@@ -329,19 +324,14 @@ def test_a_usb_camera_that_is_not_there_is_told() -> None:
     camera.close()
 
 
-def test_keyframes_take_a_frame_time_and_little_more(config: SidecarConfig) -> None:
-    """The bound is loose, for loaded machines; `make bench` prints the figure."""
+def test_no_frame_is_older_than_its_keyframe(config: SidecarConfig) -> None:
+    """How much younger they are `make bench` prints."""
     camera = open_camera(CameraSettings(spec="pattern", fps=30))
     with running_sidecar(config, camera, None) as url, Robot(url) as robot:
         robot.register()
         robot.send(0)
-        took = []
-        for sequence in range(1, 25):
-            begun = time.perf_counter()
-            answer = robot.send(sequence)
-            took.append(time.perf_counter() - begun)
-            assert 0 <= answer.json()["exposed_after_s"] < 0.2
-    assert statistics.median(took) < 0.15
+        took = [robot.send(sequence).json()["exposed_after_s"] for sequence in range(1, 25)]
+    assert min(took) >= 0
 
 
 def test_the_pattern_decodes_and_moves() -> None:
@@ -359,10 +349,9 @@ def test_a_late_camera_is_refused_in_the_time_it_was_given(config: SidecarConfig
     camera = FreeRunning("hand", source.open)
     with running_sidecar(late, camera, StubAnalyser()) as url, Robot(url) as robot:
         robot.register()
-        begun = time.monotonic()
         answer = robot.send(0)
         assert answer.status_code == 503
-        assert time.monotonic() - begun < 1.0
+        assert "0.2 s" in answer.json()["error"]["message"]
         source.put(Raw(time.monotonic() + 60, make_jpeg()))
         assert robot.send(0).status_code == 200
         source.put(CameraError("over"))

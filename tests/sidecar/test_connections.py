@@ -15,7 +15,7 @@ import pytest
 from pydantic import SecretStr
 
 from aegis_ot.errors import LinkError
-from aegis_ot.runtime.link import SidecarBusy, SidecarLink
+from aegis_ot.runtime.sidecar_client import SidecarBusy, SidecarClient
 from aegis_ot.sidecar import SidecarConfig, connections, running_sidecar, security
 from aegis_ot.sidecar.connections import who_goes
 
@@ -141,7 +141,7 @@ def test_a_sidecar_with_too_much_to_do_says_so(
     guarded: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(security, "MOST_AT_ONCE", 0)
-    link = SidecarLink(guarded, TOKEN, lambda: None)
+    link = SidecarClient(guarded, TOKEN, lambda: None)
     with pytest.raises(SidecarBusy, match=r"too busy to serve this robot \(The sidecar answers"):
         link.start("run", {"run": "run"}, 5)
     told = httpx.get(f"{guarded}/v1/runs?token={TOKEN}", trust_env=False)

@@ -16,7 +16,7 @@ import pytest
 from aegis_ot.sidecar import SidecarConfig, running_sidecar
 from aegis_ot.sidecar.aiming import measure
 from aegis_ot.sidecar.config import CameraSettings, CascadeSettings, ModelSettings
-from aegis_ot.sidecar.doctor import Check, examine
+from aegis_ot.sidecar.doctor import Examination, examine
 from aegis_ot.sidecar.store import DATABASE
 from aegis_ot.simulation import SimulatedCamera
 from aegis_ot.vision.camera import Frame
@@ -27,7 +27,7 @@ from aegis_ot.vision.reach import Smallest
 from .helpers import StubCamera, make_keyframe
 
 
-def found(config: SidecarConfig, robot: str | None = None) -> dict[str, Check]:
+def found(config: SidecarConfig, robot: str | None = None) -> dict[str, Examination]:
     return {check.name: check for check in examine(config, robot)}
 
 
@@ -113,7 +113,7 @@ def test_what_is_wrong_is_said(
 
 
 def test_it_says_what_the_world_model_would_catch(sound: SidecarConfig, tmp_path: Path) -> None:
-    def told(cascade: CascadeSettings) -> list[Check]:
+    def told(cascade: CascadeSettings) -> list[Examination]:
         checks = list(examine(sound.model_copy(update={"cascade": cascade})))
         return [check for check in checks if check.name in ("world model", "smallest volume")]
 

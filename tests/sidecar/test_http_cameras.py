@@ -25,6 +25,7 @@ from aegis_ot.vision.types import Image
 from .test_cameras import web_camera
 
 PERIOD_S = 0.12
+LAG_S = 0.1
 _BITS = 24
 _ORIGIN = time.monotonic()
 
@@ -43,10 +44,14 @@ def moment_in(image: Image) -> float:
 
 
 class Sensor:
-    """Exposes a picture every ``PERIOD_S``; hands on the newest, or one that many older."""
+    """Exposes a picture every ``PERIOD_S``; hands on the newest, or one that many older, each
+    ``lag`` s after its exposure.
+    """
 
-    def __init__(self, behind: int = 0) -> None:
-        self.taken: deque[bytes] = deque([picture_of(time.monotonic())] * (behind + 1), behind + 1)
+    def __init__(self, behind: int = 0, lag: float = 0.0) -> None:
+        self._lag = lag
+        first = picture_of(time.monotonic() - lag)
+        self.taken: deque[bytes] = deque([first] * (behind + 1), behind + 1)
         self.count = 0
         self.news = threading.Condition()
         self.over = threading.Event()
@@ -68,7 +73,7 @@ class Sensor:
 
     def _expose(self) -> None:
         while not self.over.wait(PERIOD_S):
-            picture = picture_of(time.monotonic())
+            picture = picture_of(time.monotonic() - self._lag)
             with self.news:
                 self.taken.append(picture)
                 self.count += 1
@@ -112,7 +117,7 @@ def _snapshot(sensor: Sensor) -> Callable[..., None]:
 @contextmanager
 def camera_of(kind: str) -> Iterator[tuple[Sensor, str]]:
     behind = kind.endswith("behind")
-    with closing(Sensor(int(behind))) as sensor:
+    with closing(Sensor(int(behind), LAG_S if "slow" in kind else 0.0)) as sensor:
         if kind.startswith("snapshot"):
             answer = _snapshot(sensor)
         else:
@@ -124,11 +129,19 @@ def camera_of(kind: str) -> Iterator[tuple[Sensor, str]]:
 
 @pytest.mark.parametrize(
     "kind",
-    ["lengths", "no lengths", "lengths, one behind", "lengths, piled up", "snapshots"],
+    [
+        "lengths",
+        "no lengths",
+        "lengths, one behind",
+        "lengths, slow and one behind",
+        "lengths, piled up",
+        "snapshots",
+    ],
 )
 def test_a_frame_was_exposed_after_the_moment(kind: str) -> None:
     with camera_of(kind) as (sensor, url):
-        camera = open_camera(CameraSettings(spec=url, latency_s=0.02))
+        latency = LAG_S if "slow" in kind else 0.02
+        camera = open_camera(CameraSettings(spec=url, latency_s=latency))
         try:
             for number in range(4):
                 # At every phase of the camera's period.

@@ -9,8 +9,8 @@ from typing import Any
 import pytest
 
 from aegis_ot.errors import SidecarRefused
-from aegis_ot.runtime.courier import Courier
-from aegis_ot.runtime.link import SidecarLink
+from aegis_ot.runtime.keyframe_sender import KeyframeSender
+from aegis_ot.runtime.sidecar_client import SidecarClient
 from aegis_ot.settings import Settings
 from aegis_ot.sidecar import SidecarConfig, running_sidecar
 from aegis_ot.sidecar.store import Store
@@ -22,15 +22,17 @@ from .helpers import Robot, StubAnalyser, StubCamera, make_keyframe
 ABOUT = {"protocol": "demo.py", "robot": "OT-2", "robot_name": "ada", "started": 5.5}
 
 
-def guard_of(url: str, nonce: str, run: str = "plate", **about: Any) -> Courier:
-    link = SidecarLink(url, None, lambda: None, nonce)
-    return Courier(link, run, ABOUT | about, time.sleep)
+def guard_of(url: str, nonce: str, run: str = "plate", **about: Any) -> KeyframeSender:
+    link = SidecarClient(url, None, lambda: None, nonce)
+    return KeyframeSender(link, run, ABOUT | about, time.sleep)
 
 
-def deliver(courier: Courier, trajectory: int, timeout_s: float = 2.0, **changes: Any) -> None:
+def deliver(
+    sender: KeyframeSender, trajectory: int, timeout_s: float = 2.0, **changes: Any
+) -> None:
     for number in range(4 * trajectory, 4 * trajectory + 4):
-        courier.offer(make_keyframe("plate", number, robot_time=9.0, **changes))
-        courier.deliver(timeout_s)
+        sender.offer(make_keyframe("plate", number, robot_time=9.0, **changes))
+        sender.deliver(timeout_s)
 
 
 def fill(volume: float, wells: int = 2) -> Any:

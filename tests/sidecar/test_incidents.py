@@ -25,10 +25,10 @@ def test_a_full_disk_is_named_when_it_is_over_and_its_verdicts_are_kept(
 ) -> None:
     write, full = Store._write, [False]
 
-    def maybe(self: Store, statement: str, values: tuple[Any, ...]) -> int:
+    def maybe(self: Store, *written: Any) -> int:
         if full[0]:
             raise StoreError("No space left on device.")
-        return write(self, statement, values)
+        return write(self, *written)
 
     monkeypatch.setattr(Store, "_write", maybe)
     analyser = StubAnalyser()
@@ -114,6 +114,9 @@ def test_a_run_that_is_not_as_rehearsed_is_trouble_until_it_ends(robot: Robot) -
     assert robot.overview()["layer1"]["verdict"] == "not as rehearsed"
     report = robot.http.get(f"/runs/{robot.run}/report.html").text
     assert "Not as rehearsed." in report
+    for page in (report, robot.http.get("/runs").text):
+        assert "ended, not as rehearsed" in page
+        assert 'class="badge succeeded"' not in page
     assert "No findings" not in report
 
 
@@ -121,4 +124,4 @@ def test_a_pause_of_layer_1_is_shown_as_one(robot: Robot) -> None:
     robot.cycle(0)
     hold = {"number": 0, "trajectory": 0, "seconds": 0.0, "resolution": "layer1", "policy": "pause"}
     assert robot.post("hold", hold).status_code == 200
-    assert "The robot is paused by Layer 1" in robot.http.get(f"/runs/{robot.run}").text
+    assert "The next step breaks a rule" in robot.http.get(f"/runs/{robot.run}").text

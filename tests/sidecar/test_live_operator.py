@@ -12,7 +12,7 @@ import pytest
 
 from aegis_ot.account import situations
 from aegis_ot.errors import CameraError
-from aegis_ot.runtime.link import SidecarLink
+from aegis_ot.runtime.sidecar_client import SidecarClient
 from aegis_ot.settings import Settings
 from aegis_ot.sidecar import SidecarConfig, running_sidecar
 from tests.runtime.fake_sidecar import free_port
@@ -92,14 +92,14 @@ def test_a_moving_robot_is_paused_and_resumed_and_an_old_answer_does_not_count(
     camera = StubCamera()
     camera.gate.clear()
     asked: list[int] = []
-    action = SidecarLink.action
+    action = SidecarClient.action
 
-    def ask(link: SidecarLink, *told: Any) -> str | None:
+    def ask(link: SidecarClient, *told: Any) -> str | None:
         answer = action(link, *told)
         asked.append(told[1])
         return answer
 
-    monkeypatch.setattr(SidecarLink, "action", ask)
+    monkeypatch.setattr(SidecarClient, "action", ask)
     with running_sidecar(config, camera, StubAnalyser(fails=[0])) as url:
         run = robot.run = LiveRun(two_wells, Settings(sidecar=url, run_id="run")).start()
         stage = Stage(url, run)
@@ -110,7 +110,7 @@ def test_a_moving_robot_is_paused_and_resumed_and_an_old_answer_does_not_count(
         camera.gate.set()
         run.wait_for_status("paused")
         in_time(lambda: stage.asked() == ["paused"])
-        assert "Ada paused it from this page" in stage.http.get("/").text
+        assert "Ada paused the robot" in stage.http.get("/").text
         stage.answer("resume")
         # The same delivery fails later: what was said to the first pause must not end this one.
         in_time(lambda: any("failed" in c.params.message for c in pauses(run)))
@@ -147,7 +147,7 @@ def test_a_robot_that_its_camera_paused_is_shown_and_resumed_from_the_page(
     stage, camera = unseen
     in_time(lambda: stage.asked() == ["paused", "camera"])
     page = stage.http.get("/").text
-    assert "The robot is paused: no frame" in page
+    assert "The camera gave no frame" in page
     assert "the cable is out" in page
     camera.failure = None
     stage.answer("resume")
@@ -204,7 +204,7 @@ def test_a_robot_that_lost_its_sidecar_is_shown_as_paused_once_that_is_back(
     with running_sidecar(config, StubCamera(), StubAnalyser()) as url:
         stage = Stage(url, run)
         in_time(lambda: stage.asked() == ["paused"])
-        assert "The robot is paused: it had no link" in stage.http.get("/").text
+        assert "The robot had no link" in stage.http.get("/").text
         stage.answer("resume")
         run.join()
         assert run.error is None
@@ -230,20 +230,21 @@ def test_pause_resume_and_stop_are_pressed_while_the_robot_moves(
         tab.until("document.querySelector('#order button[value=pause]')")
         tab.run("document.querySelector('#order input[name=by]').value = 'Ada'")
         tab.run("document.querySelector('#order button[value=pause]').click()")
-        tab.until("document.querySelector('.asks.ordered').textContent.includes('Ada told')")
+        tab.until("document.querySelector('.ask.ordered').textContent.includes('Ada told')")
         camera.gate.set()
-        tab.until("document.querySelector('.asks.paused button[value=resume]')")
+        tab.until("document.querySelector('.ask.paused button[value=resume]')")
         assert run.status == "paused"
         assert tab.run("document.querySelector('#order button')") is None
         camera.gate.clear()  # the robot stands at its next keyframe
-        tab.run("document.querySelector('.asks.paused button[value=resume]').click()")
+        tab.run("document.querySelector('.ask.paused button[value=resume]').click()")
+        in_time(lambda: bool(robot.told))  # a stop that comes sooner is all that it hears
         tab.until("document.querySelector('#order button[value=stop]')")
         # The name is remembered; the second press needs the fold opened.
         tab.run("document.querySelector('#stop summary').click()")
         tab.run("document.querySelector('#order button[value=stop]').click()")
-        tab.until("document.querySelector('.asks.ordered').textContent.includes('end the run')")
+        tab.until("document.querySelector('.ask.ordered').textContent.includes('end the run')")
         camera.gate.set()
         run.join()
-        tab.until("document.querySelector('h1 .badge.stopped')")
+        tab.until("document.querySelector('#state').textContent.includes('Stopped by a person')")
         assert [action for _, action in robot.told] == ["play", "stop"]
         assert tab.errors == []

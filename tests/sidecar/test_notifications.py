@@ -17,9 +17,9 @@ from pydantic import SecretStr
 
 from aegis_ot.errors import CameraError, ConfigurationError
 from aegis_ot.sidecar import SidecarConfig, create_app, running_sidecar
+from aegis_ot.sidecar.alerts import Notice
+from aegis_ot.sidecar.alerts.notifications import Notification, Notifier
 from aegis_ot.sidecar.config import NotificationSettings
-from aegis_ot.sidecar.notices import Notice
-from aegis_ot.sidecar.notifications import Message, Notifier
 
 from .helpers import Robot, StubAnalyser, StubCamera
 
@@ -145,11 +145,10 @@ def test_what_waits_of_one_kind_goes_into_one_message_and_no_verdict_waits(
         robot.cycle(0)
         robot.verdict(0)
         assert inbox.reached.wait(20)  # the first is on its way; the others pile up behind it
-        begun = time.monotonic()
         for trajectory in range(1, 6):
             robot.cycle(trajectory)
             assert robot.verdict(trajectory)["verdict"]["outcome"] == "fail"
-        assert time.monotonic() - begun < 5
+        assert inbox.received.empty()
         inbox.gate.set()
         titles, wells = [], 0
         while wells < 6:  # what the last well has to tell may come a moment after its verdict
@@ -162,7 +161,9 @@ def test_what_waits_of_one_kind_goes_into_one_message_and_no_verdict_waits(
 
 def test_one_message_for_all_that_waits_of_one_kind(inbox: Inbox) -> None:
     inbox.gate.clear()
-    notifier = Notifier([SecretStr(inbox.url)], lambda ns: Message(f"{len(ns)} {ns[0].kind}", "-"))
+    notifier = Notifier(
+        [SecretStr(inbox.url)], lambda ns: Notification(f"{len(ns)} {ns[0].kind}", "-")
+    )
     notifier.send(Notice("run", "fail", "a well failed", "seen"))
     assert inbox.reached.wait(20)
     for kind in ("fail", "camera", "fail", "fail"):

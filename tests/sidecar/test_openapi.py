@@ -130,9 +130,9 @@ def test_every_reference_leads_somewhere(url: str) -> None:
     assert {
         "RunStart",
         "Keyframe",
-        "Hold",
+        "HoldReport",
         "Finish",
         "Decision",
         "Action",
-        "Order",
+        "OrderRequest",
     } <= schemas.keys()

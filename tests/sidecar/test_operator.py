@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import threading
-import time
 from collections.abc import Iterator
 
 import httpx
@@ -100,11 +99,9 @@ def test_an_undecided_verdict_waits_for_the_operator(patient: Robot) -> None:
 
 
 def test_an_operator_who_does_not_come_leaves_it_undecided(patient: Robot) -> None:
-    begun = time.monotonic()
     patient.cycle(0)
     verdict = patient.verdict(0, wait=1.0)["verdict"]
     assert verdict["outcome"] == "undecided"
-    assert time.monotonic() - begun < 1.5
 
 
 def test_a_fail_is_never_held_back(patient: Robot) -> None:

@@ -18,10 +18,10 @@ from aegis_ot.sidecar import SidecarConfig, running_sidecar
 from aegis_ot.sidecar.app import create_app
 from aegis_ot.sidecar.config import RetentionSettings
 from aegis_ot.sidecar.housekeeping import tidy
-from aegis_ot.sidecar.overview import run_overview
+from aegis_ot.sidecar.overview import run_overview, runs_overview
 from aegis_ot.sidecar.schema import MIGRATIONS
 from aegis_ot.sidecar.store import DATABASE, SILENT, Captured, Store
-from aegis_ot.sidecar.wire import Finish, Hold, Recovery, RunStart
+from aegis_ot.sidecar.wire import Finish, HoldReport, RecoveryReport, RunStart
 from aegis_ot.vocabulary import Outcome, Route, Verdict
 
 from .helpers import Robot, StubAnalyser, StubCamera, make_jpeg, make_keyframe
@@ -104,8 +104,10 @@ def test_holds_of_the_store_before_go_on_beside_new_ones(tmp_path: Path) -> None
                 )
     db.close()
     store = Store(tmp_path, alone=True)
-    store.add_hold("a", Hold(number=0, trajectory=4, seconds=0.1, resolution="verdict"))
-    store.add_hold("a", Hold(trajectory=5, seconds=0.1, resolution="verdict"))  # an older guard's
+    store.add_hold("a", HoldReport(number=0, trajectory=4, seconds=0.1, resolution="verdict"))
+    store.add_hold(
+        "a", HoldReport(trajectory=5, seconds=0.1, resolution="verdict")
+    )  # an older guard's
     assert [hold["trajectory"] for hold in store.holds("a")] == [0, 3, 4, 5]
     assert [(hold["paused_s"], hold["answered"]) for hold in store.holds("b")] == [
         (2.0, "page")
@@ -208,10 +210,11 @@ def test_a_failed_attempt_counts_with_the_well_that_was_put_right_in_the_end(
     for number, outcome in enumerate((Outcome.FAIL, Outcome.FAIL, Outcome.PASS, Outcome.FAIL)):
         store.add_verdict(Verdict("a", number, outcome, Route.GREY_ZONE), {})
     for attempt, state, by in ((1, "failed", 1), (2, "recovered", 2)):
-        told = Recovery(trajectory=0, attempt=attempt, action="retry", state=state, by=by)
-        store.add_recovery("a", told)
+        told = RecoveryReport(trajectory=0, attempt=attempt, action="retry", state=state, by=by)
+        store.add_recovery("a", told, float(attempt))
     assert store.put_right("a") == {0, 1}
-    assert store.outcomes("a") == {"recovered": 2, "pass": 1, "fail": 1}
+    (row,) = runs_overview(store)
+    assert row["wells"] == {"recovered": 2, "pass": 1, "fail": 1}
 
 
 def test_an_incident_is_kept_once_until_it_is_over(tmp_path: Path) -> None:
@@ -294,7 +297,7 @@ class TestRot:
         store._write(
             "UPDATE keyframes SET keyframe = ? WHERE run = 'bad' AND sequence = 2", (rotten,)
         )
-        rows = {row["run"]: row for row in store.runs()}
+        rows = {row["run"]: row for row in runs_overview(store)}
         assert rows["good"]["wells"] == {"pass": 1}
         assert rows["bad"]["wells"].get("pass") is None
         assert "damaged" in rows["bad"]["protocol"]
@@ -302,7 +305,7 @@ class TestRot:
         overview = run_overview(store, "bad")
         assert overview["trajectories"][0]["verdict"]["outcome"] == "undecided"
         assert len(overview["trajectories"][0]["keyframes"]) == 3
-        assert run_account(overview)["counts"] == {"undecided": 1, "wells": 1}
+        assert run_account(overview)["counts"] == {"undecided": 1, "wells": 1, "deliveries": 1}
         store.close()
 
     def test_a_well_with_a_moment_that_is_lost_does_not_pass(self, config: SidecarConfig) -> None:

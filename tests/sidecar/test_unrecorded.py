@@ -13,7 +13,7 @@ from typing import Any
 
 import pytest
 
-from aegis_ot.sidecar import SidecarConfig, running_sidecar, unrecorded
+from aegis_ot.sidecar import SidecarConfig, run_record, running_sidecar
 from aegis_ot.sidecar.store import Store
 
 from .helpers import Robot, StubAnalyser, StubCamera
@@ -68,7 +68,7 @@ def page(robot: Robot, path: str, answer: str, note: str = "") -> None:
 def test_what_people_say_counts_while_the_disk_is_full(
     disk: Disk, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(unrecorded, "TRY_EVERY_S", 0.05)
+    monkeypatch.setattr(run_record, "TRY_EVERY_S", 0.05)
     config = SidecarConfig(port=0, data=disk.folder / "data")
     with running_sidecar(config, StubCamera(), StubAnalyser(fails=[0])) as url, Robot(url) as robot:
         robot.register()
@@ -83,7 +83,7 @@ def test_what_people_say_counts_while_the_disk_is_full(
         assert robot.post("hold", HOLD | {"resolution": "operator"}).status_code == 200
         assert "order" not in robot.verdict(0)
         seen = robot.http.get(f"/runs/{robot.run}").text
-        assert "The robot is paused" in seen
+        assert "Ada paused the robot" in seen
         assert "Not yet on record" in seen
         assert "Ada: pause" in seen
         page(robot, "wells/0", "pass stop", "it is fine, but stop")
@@ -106,11 +106,41 @@ def test_what_people_say_counts_while_the_disk_is_full(
         reader.close()
 
 
+def test_what_the_robot_says_counts_while_the_disk_is_full(disk: Disk) -> None:
+    config = SidecarConfig(port=0, data=disk.folder / "data")
+    recovery = {"trajectory": 0, "attempt": 1, "action": "retry", "state": "begun"}
+    outage = {"kind": "link", "seconds": 30, "text": "It was away."}
+    with running_sidecar(config, StubCamera(), StubAnalyser(fails=[0])) as url, Robot(url) as robot:
+        robot.register()
+        robot.cycle(0)
+        assert robot.verdict(0)["verdict"]["outcome"] == "fail"
+        disk.fill()
+        given_up = {"reason": "the run was aborted"}
+        assert robot.post("trajectories/1/abandon", given_up).status_code == 200
+        assert robot.post("recovery", recovery).status_code == 200
+        assert robot.post("recovery", recovery | {"state": "failed"}).status_code == 200
+        assert robot.post("incident", outage).status_code == 200
+        assert robot.post("finish", {"outcome": "aborted"}).status_code == 200
+        seen = robot.overview()
+        assert seen["finished"]["outcome"] == "aborted"
+        assert [one["abandoned"] for one in seen["trajectories"]] == [None, given_up["reason"]]
+        assert [one["state"] for one in seen["recoveries"]] == ["failed"]
+        assert {"link", "store"} <= {one["kind"] for one in seen["incidents"]}
+        disk.free()
+    with contextlib.closing(Store(config.data)) as store:
+        assert store.abandoned(robot.run) == {1: given_up["reason"]}
+        assert [one["state"] for one in store.recoveries(robot.run)] == ["failed"]
+        assert "link" in {one["kind"] for one in store.incidents(robot.run)}
+        ended = store.run(robot.run)
+        assert ended is not None
+        assert ended["finished"]["outcome"] == "aborted"
+
+
 def test_what_waits_is_kept_in_order_and_written_at_a_clean_stop(
     config: SidecarConfig, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """The database may not grow; there is room again as the sidecar is stopped."""
-    monkeypatch.setattr(unrecorded, "TRY_EVERY_S", 60.0)
+    monkeypatch.setattr(run_record, "TRY_EVERY_S", 60.0)
     with running_sidecar(config, StubCamera(), StubAnalyser()) as url, Robot(url) as robot:
         robot.register()
         robot.cycle(0)

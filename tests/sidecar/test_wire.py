@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import threading
-import time
 from urllib.parse import quote
 
 import pytest
 
 from aegis_ot.errors import CameraError
-from aegis_ot.sidecar import SidecarConfig
+from aegis_ot.sidecar import SidecarConfig, app
 from aegis_ot.vocabulary import Keyframe, KeyframeKind, Verdict, from_json, to_json
 
 from .helpers import Robot, StubAnalyser, StubCamera, make_keyframe
@@ -121,23 +120,19 @@ def test_a_frame_exposed_before_the_trigger_is_refused(robot: Robot, camera: Stu
     assert "old frame" in answer.json()["error"]["message"]
 
 
-def test_a_verdict_wakes_the_long_poll(robot: Robot, analyser: StubAnalyser) -> None:
+def test_a_verdict_wakes_the_long_poll(
+    robot: Robot, analyser: StubAnalyser, monkeypatch: pytest.MonkeyPatch
+) -> None:
     analyser.gate.clear()
     robot.cycle(0)
     assert robot.verdict(0, wait=0.05) == {"verdict": None}
-    release = threading.Timer(0.2, analyser.gate.set)
-    begun = time.monotonic()
-    release.start()
-    body = robot.verdict(0, wait=1.0)
-    took = time.monotonic() - begun
-    assert body["verdict"]["outcome"] == "pass"
-    assert 0.15 < took < 0.7
+    monkeypatch.setattr(app, "MAX_WAIT", 600.0)
+    threading.Timer(0.2, analyser.gate.set).start()
+    assert robot.verdict(0, wait=600.0)["verdict"]["outcome"] == "pass"
 
 
 def test_a_wait_is_cut_to_one_second(robot: Robot) -> None:
-    begun = time.monotonic()
-    assert robot.verdict(7, wait=60)["verdict"] is None
-    assert time.monotonic() - begun < 2
+    assert robot.verdict(7, wait=600)["verdict"] is None
 
 
 def test_two_runs_at_once_do_not_mix(url: str, analyser: StubAnalyser) -> None:

@@ -11,15 +11,15 @@ from aegis_ot.instrumentation import (
     LabwareInfo,
     Operation,
     OperationKind,
-    Pipette,
+    PipetteInfo,
     WellInfo,
 )
-from aegis_ot.preflight.database import load_database
 from aegis_ot.preflight.rehearsal import Recorder
+from aegis_ot.preflight.rule_set import load_rules
 from aegis_ot.preflight.trace import Trace, Well, build_trace
 from aegis_ot.vocabulary import WellRef
 
-PIPETTE = Pipette("left", "p300_single_gen2", "left", 1, 300.0)
+PIPETTE = PipetteInfo("left", "p300_single_gen2", "left", 1, 300.0)
 DEPTH, CAPACITY, DIAMETER = 10.0, 200.0, 6.0
 
 
@@ -82,7 +82,7 @@ class Bench:
         self.recorder.event(Event(EventKind.LIQUID_LOADED, 0, ref.labware, (ref,), name, volume))
 
     def trace(self) -> Trace:
-        words = load_database().common.pauses
+        words = load_rules().common.pauses
         return build_trace(self.recorder.log, self.recorder.labware, words)
 
     def _do(

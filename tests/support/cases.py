@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from aegis_ot.preflight import load_database
-from aegis_ot.preflight.checks import Case, Doubt, Violation, make_check
+from aegis_ot.preflight import load_rules
+from aegis_ot.preflight.checks import Doubt, RuleContext, Violation, make_check
 from aegis_ot.preflight.evidence import Evidence, Kind
 from aegis_ot.preflight.roles import Roles
 from aegis_ot.preflight.roles.roles import Assignment
 from aegis_ot.preflight.trace import Trace
 from aegis_ot.vocabulary import WellRef
 
-DATABASE = load_database()
+DATABASE = load_rules()
 
 
 def case_of(
@@ -20,7 +20,7 @@ def case_of(
     family: str,
     roles: Mapping[str, str],
     levels: Mapping[str, float] | None = None,
-) -> Case:
+) -> RuleContext:
     """A case of a family.
 
     Args:
@@ -36,15 +36,15 @@ def case_of(
             ref = WellRef(labware, name)
             evidence = Evidence(Kind.GIVEN, role, (ref,), "given", role=role)
             found.by_well[ref] = Assignment(role, (evidence,), (levels or {}).get(place))
-    return Case(trace, found, DATABASE.common)
+    return RuleContext(trace, found, DATABASE.common)
 
 
-def broken(case: Case, rule: str) -> list[Violation]:
+def broken(case: RuleContext, rule: str) -> list[Violation]:
     """Where the case breaks a rule of its family."""
     return [one for one in _results(case, rule) if isinstance(one, Violation)]
 
 
-def doubts(case: Case, rule: str) -> list[str]:
+def doubts(case: RuleContext, rule: str) -> list[str]:
     """What a rule cannot judge of the case."""
     return [one.reason for one in _results(case, rule) if isinstance(one, Doubt)]
 
@@ -54,6 +54,6 @@ def wells(violations: list[Violation]) -> set[str]:
     return {f"{one.well.labware}:{one.well.name}" for one in violations}
 
 
-def _results(case: Case, rule: str) -> list[Violation | Doubt]:
+def _results(case: RuleContext, rule: str) -> list[Violation | Doubt]:
     (spec,) = (spec for spec in DATABASE.rules if spec.id == rule)
     return [one for data in spec.checks for one in make_check(data, rule).find(case)]

@@ -25,11 +25,14 @@ import uvicorn
 from fastapi import FastAPI, Request
 from fastapi.responses import JSONResponse, Response
 from opentrons.hardware_control import API
+from opentrons.hardware_control.modules import SimulatingModule
+from opentrons.protocol_engine import LabwareOffsetCreate, LegacyLabwareOffsetCreate
+from opentrons.protocol_engine.commands.command_unions import CommandCreateAdapter
 from opentrons.protocol_reader import ProtocolFilesInvalidError, ProtocolReader
 from opentrons.protocol_runner.create_simulating_orchestrator import create_simulating_orchestrator
 from opentrons.protocol_runner.run_orchestrator import ParseMode
 
-from .live_engine import make_live
+from .live_engine import make_hardware, make_live
 
 IDLE, ENDED = "idle", ("succeeded", "failed", "stopped")
 SUMMARY = (
@@ -47,9 +50,24 @@ class RobotServer:
         fault: Asked before each request; an answer of its own goes out instead.
         protocols, runs: What was uploaded and made, by id.
         requests: ``"METHOD /path"`` of every request.
+        store: Its labware offsets; ``None`` on a robot that has no such store.
+        modules, fixtures: Temperature modules that are plugged in; deck configuration of a Flex.
+        recover: Opentrons' policy of error recovery; never to recover if ``None``.
     """
 
-    def __init__(self, pipette: str = "p300_single_gen2", model: str = "p300_single_v2.1") -> None:
+    def __init__(
+        self,
+        pipette: str = "p300_single_gen2",
+        model: str = "p300_single_v2.1",
+        robot: str = "OT-2",
+    ) -> None:
+        self.robot = robot
+        self.store: list[dict[str, Any]] | None = None
+        self.modules: list[str] = []
+        self.fixtures = {f"cutout{row}{column}": "single" for row in "ABCD" for column in "123"}
+        self.fixtures["cutoutA3"] = "trashBinAdapter"
+        self.recover: Any = None
+        self.data: dict[str, Path] = {}
         self.clock_offset_s = 0.0
         self.fault: Fault | None = None
         self.protocols: dict[str, dict[str, Any]] = {}
@@ -97,28 +115,40 @@ class RobotServer:
         moment = datetime.fromisoformat(text.replace("Z", "+00:00"))
         return (moment + timedelta(seconds=self.clock_offset_s)).isoformat()
 
-    async def analyse(self, protocol: dict[str, Any], values: Any = None) -> None:
+    async def analyse(
+        self, protocol: dict[str, Any], values: Any = None, files: Any = None
+    ) -> None:
         analysis: dict[str, Any] = {"id": str(uuid.uuid4()), "status": "pending"}
         protocol["analyses"].append(analysis)
         source = protocol["source"]
         orchestrator = await create_simulating_orchestrator(source.robot_type, source.config)
         try:
-            await orchestrator.load(source, values or None, None, ParseMode.NORMAL)
+            await orchestrator.load(source, values or None, self.paths(files), ParseMode.NORMAL)
             result = await orchestrator.run(deck_configuration=[])
         except Exception as error:
             found = [{"errorType": type(error).__name__, "errorCode": "4000", "detail": str(error)}]
-            analysis.update(status="completed", result="not-ok", commands=[], errors=found)
+            declared = [_plain(one) for one in orchestrator.get_run_time_parameters()]
+            analysis.update(
+                status="completed",
+                result="not-ok",
+                commands=[],
+                errors=found,
+                runTimeParameters=declared,
+            )
             return
         summary = result.state_summary
         analysis.update(
             status="completed",
             result="not-ok" if summary.errors else "ok",
             robotType=source.robot_type,
-            runTimeParameters=[],
+            runTimeParameters=[_plain(one) for one in orchestrator.get_run_time_parameters()],
             commands=[_plain(command) for command in result.commands],
             errors=[_plain(error) for error in summary.errors],
             pipettes=[_plain(pipette) for pipette in summary.pipettes],
         )
+
+    def paths(self, files: Any) -> dict[str, Path]:
+        return {name: self.data[identifier] for name, identifier in (files or {}).items()}
 
 
 class _Run:
@@ -129,20 +159,36 @@ class _Run:
         self.protocol = protocol
         self.created = datetime.now(timezone.utc)
         self.actions: list[dict[str, Any]] = []
+        self.lost = False  # the server was restarted meanwhile
         self._server = server
         self._task: asyncio.Task[Any] | None = None
 
-    async def load(self, values: Any, offsets: Any = ()) -> None:
-        self.offsets = list(offsets or ())
+    async def load(self, values: Any, files: Any, offsets: Any = ()) -> None:
+        self.offsets: list[dict[str, Any]] = []  # further ones that it is said to have had
         source = self.protocol["source"]
         self._loop = asyncio.get_running_loop()
-        hardware = await API.build_hardware_simulator(
-            attached_instruments={_left(): dict(self._server.attached)}
-        )
-        hardware._em_simulate = False  # wait and be cancelled as on a robot
-        self.orchestrator = (await make_live(hardware, source.config)).orchestrator
+        robot = self._server.robot
+        if robot == "OT-2":
+            hardware = await API.build_hardware_simulator(
+                attached_instruments={_left(): dict(self._server.attached)},
+                attached_modules={
+                    "tempdeck": [
+                        SimulatingModule(serial_number=m, model=m) for m in self._server.modules
+                    ]
+                },
+            )
+            hardware._em_simulate = False  # wait and be cancelled as on a robot
+        else:
+            hardware = await make_hardware(robot)
+        recover = self._server.recover
+        self.orchestrator = (await make_live(hardware, source.config, robot, recover)).orchestrator
         self._hardware = hardware
-        await self.orchestrator.load(source, values, None, ParseMode.NORMAL)
+        await self.orchestrator.load(source, values, self._server.paths(files), ParseMode.NORMAL)
+        for offset in offsets or ():
+            kind = (
+                LabwareOffsetCreate if "locationSequence" in offset else LegacyLabwareOffsetCreate
+            )
+            self.orchestrator.add_labware_offset(kind.model_validate(offset))
 
     @property
     def status(self) -> str:
@@ -156,6 +202,8 @@ class _Run:
                 self.orchestrator.play()
         elif kind == "pause":
             self.orchestrator.pause()
+        elif kind == "resume-from-recovery":
+            self.orchestrator.resume_from_recovery(False)
         else:
             await self.orchestrator.stop()
         created = datetime.now(timezone.utc).isoformat()
@@ -174,8 +222,19 @@ class _Run:
         finally:
             await self._hardware.clean_up()
 
+    async def fix(self, asked: Any, failed: str) -> dict[str, Any]:
+        added = await self.orchestrator.add_command_and_wait_for_interval(
+            CommandCreateAdapter.validate_python(asked), failed_command_id=failed
+        )
+        return self.command(added.id)
+
     def view(self) -> dict[str, Any]:
         summary = self.orchestrator.get_state_summary()
+        if self.lost:
+            empty: dict[str, Any] = {
+                name: [] for name in ("labware", "pipettes", "actions", "errors")
+            }
+            return {"id": self.id, "ok": False, "status": "stopped", "current": False, **empty}
         return {
             "id": self.id,
             "ok": True,
@@ -189,7 +248,7 @@ class _Run:
             "modules": [],
             "labware": [_plain(labware) for labware in summary.labware],
             "liquids": [_plain(liquid) for liquid in summary.liquids],
-            "labwareOffsets": self.offsets,
+            "labwareOffsets": [_plain(one) for one in summary.labwareOffsets] + self.offsets,
             "runTimeParameters": [],
             "protocolId": self.protocol["id"],
         }
@@ -209,18 +268,21 @@ class _Run:
         return _plain(self.orchestrator.get_command(command))
 
     def _links(self) -> dict[str, Any]:
-        current = self.orchestrator.get_current_command()
-        if current is None:
-            return {}
+        found = {
+            "current": self.orchestrator.get_current_command(),
+            "currentlyRecoveringFrom": self.orchestrator.get_command_recovery_target(),
+        }
+        return {name: self._link(one) for name, one in found.items() if one is not None}
+
+    def _link(self, pointer: Any) -> dict[str, Any]:
         meta = {
             "runId": self.id,
-            "commandId": current.command_id,
-            "index": current.index,
-            "key": current.command_key,
-            "createdAt": current.created_at.isoformat(),
+            "commandId": pointer.command_id,
+            "index": pointer.index,
+            "key": pointer.command_key,
+            "createdAt": pointer.created_at.isoformat(),
         }
-        href = f"/runs/{self.id}/commands/{current.command_id}"
-        return {"current": {"href": href, "meta": meta}}
+        return {"href": f"/runs/{self.id}/commands/{pointer.command_id}", "meta": meta}
 
 
 def _left() -> Any:
@@ -262,7 +324,7 @@ def _app(robot: RobotServer) -> FastAPI:
         return body(
             {
                 "name": "test-robot",
-                "robot_model": "OT-2 Standard",
+                "robot_model": "OT-2 Standard" if robot.robot == "OT-2" else "OT-3 Standard",
                 "api_version": "8.1.0",
                 "fw_version": "Virtual Smoothie",
                 "maximum_protocol_api_version": [2, 20],
@@ -275,9 +337,51 @@ def _app(robot: RobotServer) -> FastAPI:
     async def system_time() -> Any:
         return body({"data": {"systemTime": robot.now().isoformat(), "id": "time"}, "links": {}})
 
+    @app.get("/pipettes")
+    async def pipettes() -> Any:
+        none = {"model": None, "name": None, "id": None}
+        return {"left": none, "right": none | {"name": "p300_single_gen2"}}
+
+    @app.get("/modules")
+    async def modules() -> Any:
+        return body({"data": [{"moduleModel": model} for model in robot.modules]})
+
+    @app.get("/deck_configuration")
+    async def deck() -> Any:
+        placed = [{"cutoutId": c, "cutoutFixtureId": f} for c, f in robot.fixtures.items()]
+        return body({"data": {"cutoutFixtures": placed}})
+
+    @app.get("/labwareOffsets")
+    async def offsets() -> Any:
+        if robot.store is None:
+            return JSONResponse({"detail": "Not Found"}, 404)
+        return body({"data": robot.store})
+
+    @app.post("/dataFiles")
+    async def data_file(request: Request) -> Any:
+        ((name, text, _),) = await _parts(request)
+        path = Path(robot.folder.name) / name
+        path.write_bytes(text)
+        robot.data[name] = path
+        return body({"data": {"id": name, "name": name}}, 201)
+
     _protocol_routes(app, robot, body)
     _run_routes(app, robot, body)
     return app
+
+
+async def _parts(request: Request) -> list[tuple[str, bytes, str]]:
+    """Of a multipart body: file name, content and field name of each."""
+    head = f"Content-Type: {request.headers['content-type']}\r\n\r\n".encode()
+    parts: Any = message_from_bytes(head + await request.body()).get_payload()
+    return [
+        (
+            p.get_filename() or "",
+            p.get_payload(decode=True),
+            str(p.get_param("name", header="content-disposition")),
+        )
+        for p in parts
+    ]
 
 
 def _protocol_routes(app: FastAPI, robot: RobotServer, body: Any) -> None:
@@ -288,15 +392,15 @@ def _protocol_routes(app: FastAPI, robot: RobotServer, body: Any) -> None:
 
     @app.post("/protocols")
     async def upload(request: Request) -> Any:
-        head = f"Content-Type: {request.headers['content-type']}\r\n\r\n".encode()
-        parts: Any = message_from_bytes(head + await request.body()).get_payload()  # multipart
-        files = [(p.get_filename(), p.get_payload(decode=True)) for p in parts if p.get_filename()]
-        values = next((json.loads(p.get_payload()) for p in parts if not p.get_filename()), {})
+        parts = await _parts(request)
+        files = [(name, text) for name, text, _ in parts if name]
+        fields = {field: json.loads(text) for name, text, field in parts if not name}
+        values = [fields.get(f"runTimeParameter{what}") for what in ("Values", "Files")]
         key = hashlib.sha256(repr(files).encode()).hexdigest()
         for known in robot.protocols.values():
             if known["key"] == key:
-                if values:
-                    _begin(robot.analyse(known, values))
+                if any(values):
+                    _begin(robot.analyse(known, *values))
                     await asyncio.sleep(0)
                 return body(view(known), 200)
         folder = Path(robot.folder.name) / key[:8]
@@ -321,7 +425,7 @@ def _protocol_routes(app: FastAPI, robot: RobotServer, body: Any) -> None:
             "analyses": [],
         }
         robot.protocols[protocol["id"]] = protocol
-        _begin(robot.analyse(protocol, values))
+        _begin(robot.analyse(protocol, *values))
         await asyncio.sleep(0)
         return body(view(protocol), 201)
 
@@ -389,7 +493,8 @@ def _run_routes(app: FastAPI, robot: RobotServer, body: Any) -> None:
             detail = "Current run is not idle or stopped."
             return _error(409, "RunAlreadyActive", "Run Already Active", detail)
         run = _Run(robot, robot.protocols[asked])
-        await run.load(data.get("runTimeParameterValues"), data.get("labwareOffsets"))
+        values, files = data.get("runTimeParameterValues"), data.get("runTimeParameterFiles")
+        await run.load(values, files, data.get("labwareOffsets"))
         robot.runs[run.id] = run
         robot.current = run.id
         return body({"data": run.view()}, 201)
@@ -414,6 +519,11 @@ def _run_routes(app: FastAPI, robot: RobotServer, body: Any) -> None:
         if run not in robot.runs:
             return unknown(run)
         return body({"data": robot.runs[run].command(command)})
+
+    @app.post("/runs/{run}/commands")
+    async def add(run: str, request: Request, failedCommandId: str) -> Any:
+        asked = (await request.json())["data"]
+        return body({"data": await robot.runs[run].fix(asked, failedCommandId)}, 201)
 
     @app.post("/runs/{run}/actions")
     async def act(run: str, request: Request) -> Any:

@@ -1,4 +1,4 @@
-"""Detections that one run cannot have are mended or dropped."""
+"""What the frames of a trajectory say of each other's tip."""
 
 from __future__ import annotations
 
@@ -7,7 +7,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from aegis_ot.vision.consistency import TipConsistency, confirms, find_again, second_look
+from aegis_ot.vision.consistency import (
+    TipConsistency,
+    confirms,
+    guesses_in,
+    second_look,
+)
 from aegis_ot.vision.types import TipDetection
 from aegis_ot.vocabulary import KeyframeKind as K
 
@@ -36,71 +41,17 @@ def frames(shift: int = 0) -> dict[K, np.ndarray]:
 def known() -> TipConsistency:
     consistency = TipConsistency()
     for _ in range(4):
-        consistency.settle({K.TRANSIT: tip(), K.POST_DISPENSE: tip()}, frames())
+        consistency.note({K.TRANSIT: tip(), K.POST_DISPENSE: tip()})
     return consistency
 
 
-def test_agreeing_detections_are_left_alone(known):
-    seen = {K.TRANSIT: tip(), K.POST_DISPENSE: tip(302.0, 153.0)}
-    assert known.settle(seen, frames()) == seen
-
-
-def test_a_meniscus_taken_for_a_collar_is_mended_by_the_usual_length(known):
-    wrong = tip(307.0, collar=257.0, length=100.0)
-    settled = known.settle({K.TRANSIT: tip(), K.POST_DISPENSE: wrong}, frames(shift=7))
-    mended = settled[K.POST_DISPENSE]
-    assert mended.length == pytest.approx(LENGTH)
-    assert mended.orifice == wrong.orifice
-    assert mended.collar == pytest.approx((307.0, 157.0))
-
-
-def test_collars_mistaken_in_both_frames_leave_the_tip_on_the_pipette(known):
-    seen = {
-        K.TRANSIT: tip(collar=250.0, length=100.0),
-        K.POST_DISPENSE: tip(collar=220.0, length=130.0),
-    }
-    settled = known.settle(seen, frames())
-    assert [settled[kind].length for kind in seen] == pytest.approx([LENGTH, LENGTH])
-
-
-def test_a_tip_of_another_length_that_ends_elsewhere_is_found_by_its_partner(known):
-    wrong = tip(collar=250.0, length=140.0)
-    settled = known.settle({K.TRANSIT: tip(), K.POST_DISPENSE: wrong}, frames(shift=7))
-    mended = settled[K.POST_DISPENSE]
-    assert mended.length == pytest.approx(LENGTH)
-    assert mended.collar == pytest.approx((307.0, 157.0), abs=1.0)
-
-
-def test_a_shaft_taken_for_a_tip_is_dropped(known):
-    shaft = tip(collar=-60.0)
-    settled = known.settle({K.TRANSIT: None, K.POST_DISPENSE: shaft}, frames())
-    assert settled[K.POST_DISPENSE] is None
-
-
-def test_a_missing_tip_is_never_made_up(known):
-    settled = known.settle({K.TRANSIT: tip(), K.POST_DISPENSE: None}, frames())
-    assert settled[K.POST_DISPENSE] is None
-
-
-def test_nothing_is_refused_before_the_tip_is_known():
-    odd = tip(length=90.0)
-    settled = TipConsistency().settle({K.TRANSIT: None, K.POST_DISPENSE: odd}, frames())
-    assert settled[K.POST_DISPENSE] is odd
-
-
-def test_a_tip_in_a_well_may_look_shorter(known):
-    hidden = tip(length=120.0)
-    assert known.settle({K.ASPIRATE: hidden}, {})[K.ASPIRATE] is hidden
-
-
-def test_no_match_is_no_tip():
-    blank = np.full((480, 640, 3), 90, np.uint8)
-    blank[::7] = 95
-    assert find_again(tip(), frame(), blank) is None
-
-
-def test_a_tip_at_the_edge_of_the_frame_is_not_looked_for():
-    assert find_again(replace(tip(), collar=(3.0, 2.0)), frame(), frame()) is None
+def test_a_run_learns_from_frames_that_agree_alone(known: TipConsistency) -> None:
+    unlike = TipConsistency()
+    for _ in range(4):
+        unlike.note({K.TRANSIT: tip(), K.POST_DISPENSE: tip(length=120.0)})
+        unlike.note({K.TRANSIT: tip(), K.POST_DISPENSE: None})
+    assert unlike.clearly_absent([tip()])
+    assert not known.clearly_absent([tip()])
 
 
 def test_a_faint_tip_is_believed_beside_a_clear_one_alike():
@@ -110,21 +61,6 @@ def test_a_faint_tip_is_believed_beside_a_clear_one_alike():
     assert not confirms(replace(tip(collar=-40.0), confidence=0.24), tip(), 0.2)
     assert not confirms(replace(tip(length=120.0), confidence=0.24), tip(), 0.2)
     assert not confirms(None, tip(), 0.2)
-
-
-def test_a_faint_tip_is_recognised_where_this_runs_tip_hangs(known):
-    faint = {150: replace(tip(), confidence=0.05)}
-    seen = {K.TRANSIT: tip(), K.POST_DISPENSE: None}
-
-    def guess(image: np.ndarray) -> TipDetection | None:
-        return faint.get(150)
-
-    assert known.recognise(guess, seen, frames()) == {K.POST_DISPENSE: faint[150]}
-    faint[150] = replace(tip(x=400.0), confidence=0.05)
-    assert known.recognise(guess, seen, frames()) == {}
-    faint[150] = replace(tip(collar=-30.0), confidence=0.05)
-    assert known.recognise(guess, seen, frames()) == {}
-    assert TipConsistency().recognise(guess, seen, frames()) == {}
 
 
 def test_one_frame_without_a_tip_is_excused_if_the_others_show_it_clearly(known):
@@ -158,7 +94,25 @@ def test_no_tip_is_sure_only_where_tips_are_plain_to_see(known):
 
 def test_two_faint_tips_confirm_nothing_but_a_sure_one_confirms_a_faint_one() -> None:
     transit, after = K.TRANSIT, K.POST_DISPENSE
-    image = np.zeros((540, 960, 3), np.uint8)
-    frames, faint = {transit: image, after: image}, replace(tip(), confidence=0.35)
-    assert second_look(lambda _: faint, {transit: None, after: None}, frames) == {}
-    assert second_look(lambda _: faint, {transit: tip(), after: None}, frames) == {after: faint}
+    faint = replace(tip(), confidence=0.35)
+    assert second_look(lambda _: faint, {transit: None, after: None}) == {}
+    assert second_look(lambda _: faint, {transit: tip(), after: None}) == {after: faint}
+
+
+def test_a_frame_is_looked_at_once_and_one_that_is_missing_not_at_all() -> None:
+    class Guessing:
+        looked = 0
+
+        def detect(self, image: np.ndarray) -> TipDetection | None:
+            return None
+
+        def best_guess(self, image: np.ndarray) -> TipDetection | None:
+            self.looked += 1
+            return tip()
+
+    detector = Guessing()
+    guess = guesses_in(detector, {K.TRANSIT: np.zeros((540, 960, 3), np.uint8)})
+    assert guess is not None
+    assert guess(K.TRANSIT) == guess(K.TRANSIT) == tip()
+    assert guess(K.POST_DISPENSE) is None
+    assert detector.looked == 1

@@ -189,3 +189,11 @@ def test_faults_of_positions_are_named(folder: Path) -> None:
         "row 6, column y: 'far'",
     ):
         assert told in str(error.value)
+
+
+def test_positions_of_unknown_trajectories_are_counted(folder: Path) -> None:
+    rows = ["trajectory_id,keyframe,x,y,z", "p1-a,transit,1,2,3"]
+    rows += ["nobody,transit,1,2,3", "p1-A,transit,1,2,3"]
+    (folder / "positions.csv").write_text("\n".join(rows) + "\n")
+    (told,) = (each for each in load_dataset(folder).warnings if "positions.csv" in each)
+    assert "2 rows name trajectories" in told

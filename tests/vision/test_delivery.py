@@ -7,11 +7,10 @@ import pytest
 from aegis_ot.simulation import SessionParameters, SimulatedCamera
 from aegis_ot.vision.column_reader import MeasuredColumns
 from aegis_ot.vision.delivery import Delivery, Shown, delivery_of
-from aegis_ot.vision.measuring import TipView
 from aegis_ot.vision.tips import tip_for
 from aegis_ot.vision.types import FREE, TipDetection
 
-from .test_monitor import keyframes
+from .test_run_analyser_factory import keyframes
 
 
 def delivery(fault: str = "", reagent: str = "red dye", kept: float = 0.0) -> Delivery:
@@ -26,11 +25,8 @@ def delivery(fault: str = "", reagent: str = "red dye", kept: float = 0.0) -> De
         found = TipDetection(*truth.box, 0.9, tip.orifice, tip.collar)
         expected[keyframe.kind] = keyframe.expected_ul + kept
         looks[keyframe.kind] = reader.look(
-            TipView(
-                keyframe.kind, frame.image, found, tip_for(keyframe.pipette),
-                keyframe.expected_ul,
-            )
-        )  # fmt: skip
+            {keyframe.kind: frame.image}, keyframe.kind, found, tip_for(keyframe.pipette)
+        )
     return delivery_of(looks, expected)
 
 

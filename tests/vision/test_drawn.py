@@ -10,14 +10,14 @@ from aegis_ot.simulation import SessionParameters, SimulatedCamera
 from aegis_ot.vision.column_look import Look
 from aegis_ot.vision.column_reader import MeasuredColumns
 from aegis_ot.vision.drawn import drawn_top
-from aegis_ot.vision.measuring import ColumnReading, TipView
+from aegis_ot.vision.measuring import ColumnReading
 from aegis_ot.vision.tips import tip_for
 from aegis_ot.vision.types import FREE, TipDetection
 from aegis_ot.vocabulary import KeyframeKind
 
-from .test_monitor import keyframes
+from .test_run_analyser_factory import keyframes
 
-Well = tuple[dict[KeyframeKind, object], dict[KeyframeKind, float]]
+Well = tuple[dict[KeyframeKind, Look], dict[KeyframeKind, float]]
 
 
 def wells(
@@ -39,17 +39,13 @@ def wells(
         looks, expected = seen[keyframe.trajectory]
         expected[keyframe.kind] = keyframe.expected_ul
         looks[keyframe.kind] = reader.look(
-            TipView(
-                keyframe.kind, frame.image, found, tip_for(keyframe.pipette), keyframe.expected_ul
-            )
+            {keyframe.kind: frame.image}, keyframe.kind, found, tip_for(keyframe.pipette)
         )
     return seen
 
 
 def top_of(well: Well, off: float = 0.0) -> float | None:
     before, after = (well[0][kind] for kind in FREE)
-    assert isinstance(before, Look)
-    assert isinstance(after, Look)
     tip = before.tip
     place = 1.0 - float(tip.height_of(well[1][KeyframeKind.TRANSIT])) / tip.length_mm
     return drawn_top(before, after, place + off, 0.1)
@@ -112,11 +108,3 @@ def test_what_is_learned_anew_leaves_out_emptied_tips_that_hold_liquid() -> None
     readings(reader, seen)
     reader.forget(seen[:6])
     assert reader.read(*seen[6])[KeyframeKind.POST_DISPENSE].volume_ul > 15.0
-
-
-def test_air_in_the_column_was_not_drawn() -> None:
-    reader = MeasuredColumns()
-    last = readings(reader, wells(reader, 8, ("air_bubble:20@#8",)))[7][KeyframeKind.TRANSIT]
-    assert last.gap_ul > 10.0
-    assert last.seen is not None
-    assert last.seen.volume_ul < 95.0

@@ -8,11 +8,11 @@ from typing import Any
 import pytest
 
 from aegis_ot.vision.calibration import CalibrationSettings
+from aegis_ot.vision.calibration_group import CalibrationGroup, OpenTrajectory
 from aegis_ot.vision.cascade import Triage
 from aegis_ot.vision.column_reader import MeasuredColumns
 from aegis_ot.vision.evidence import evidence_of
-from aegis_ot.vision.gates import Case, GateDecision
-from aegis_ot.vision.stream import OpenTrajectory, Stream
+from aegis_ot.vision.gates import GateDecision, GateInput
 from aegis_ot.vision.tips import TIPS
 from aegis_ot.vocabulary import Gate, KeyframeKind, Outcome, Route
 from tests.sidecar.helpers import make_keyframe
@@ -30,9 +30,9 @@ def told(heights: Mapping[str, float], triage: Triage) -> dict[str, Any]:
         triage: Where it was sent.
     """
     reader = MeasuredColumns()
-    made = Stream(None, reader, CalibrationSettings())
+    made = CalibrationGroup(None, reader, CalibrationSettings())
     reader.expect_heights(heights)
-    case = Case(sample(), Route.CALIBRATION, None, {})
+    case = GateInput(sample(), Route.CALIBRATION, None, {})
     seen = OpenTrajectory({KeyframeKind.TRANSIT: make_keyframe("run", 1)})
     decision = GateDecision(Outcome.PASS, Gate.NONE, "")
     key = "p1000_single_gen2", 1000.0, "red"

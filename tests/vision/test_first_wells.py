@@ -6,7 +6,7 @@ import pytest
 
 from aegis_ot.vision.delivery import Delivery, Shown
 from aegis_ot.vision.first_wells import FirstWells
-from aegis_ot.vision.gates import Case
+from aegis_ot.vision.gates import GateInput
 from aegis_ot.vocabulary import Route
 
 from .samples import sample
@@ -15,8 +15,8 @@ PLAIN, NOTHING = Delivery(Shown.EMPTIED, 10.0), Delivery(Shown.NOTHING, 0.5)
 UNKNOWN = Delivery(Shown.UNKNOWN)
 
 
-def well(delivery: Delivery) -> Case:
-    return Case(sample(), Route.CALIBRATION, delivery=delivery)
+def well(delivery: Delivery) -> GateInput:
+    return GateInput(sample(), Route.CALIBRATION, delivery=delivery)
 
 
 @pytest.mark.parametrize("shown", [NOTHING, UNKNOWN, None])

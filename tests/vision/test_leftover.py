@@ -7,13 +7,13 @@ from dataclasses import replace
 import pytest
 
 from aegis_ot.vision.delivery import Delivery, Shown
-from aegis_ot.vision.gates import Case, GateDecision
+from aegis_ot.vision.gates import GateDecision, GateInput
 from aegis_ot.vision.leftover import Leftover, Leftovers, explains
 from aegis_ot.vision.measuring import ColumnReading
 from aegis_ot.vocabulary import FailureType, Gate, KeyframeKind, Outcome, Route
 
 from .samples import sample
-from .test_monitor import keyframes
+from .test_run_analyser_factory import keyframes
 
 TRANSIT, LAST = KeyframeKind.TRANSIT, KeyframeKind.POST_DISPENSE
 KEYFRAME = next(iter(keyframes(1)))
@@ -21,11 +21,11 @@ LEFT = Leftover("1:A1", 50.0, "A1")
 UNKNOWN = Delivery(Shown.UNKNOWN)
 
 
-def case(transit: float | None = None, last: float | None = None) -> Case:
+def case(transit: float | None = None, last: float | None = None) -> GateInput:
     """A well that should get 100 µL."""
     found = {TRANSIT: transit, LAST: last}
     readings = {kind: ColumnReading(v, 2.0) for kind, v in found.items() if v is not None}
-    return Case(sample(), Route.GREY_ZONE, readings=readings)
+    return GateInput(sample(), Route.GREY_ZONE, readings=readings)
 
 
 def fail(measured: float | None, expected: float | None) -> GateDecision:
@@ -104,7 +104,7 @@ def test_failures_that_leave_nothing_are_forgotten(failure) -> None:
     assert tips.known(KEYFRAME) is None
 
 
-def unseen() -> Case:
+def unseen() -> GateInput:
     """A well of which nothing was seen to leave."""
     return replace(case(), delivery=Delivery(Shown.NOTHING))
 

@@ -8,13 +8,13 @@ import pytest
 
 from aegis_ot.simulation import SessionParameters, SimulatedCamera
 from aegis_ot.vision.column import TipLook, shapes_of
-from aegis_ot.vision.monitor import RunMonitor
 from aegis_ot.vision.outlines import Outlines
+from aegis_ot.vision.run_analyser_factory import RunAnalyserFactory
 from aegis_ot.vision.scorers.looks import look
 from aegis_ot.vision.tips import TIPS, tip_for
 from aegis_ot.vision.types import FREE, TipDetection
 
-from .test_monitor import Told, keyframes
+from .test_run_analyser_factory import Told, keyframes
 
 SMALL = TIPS["ot2_300"]
 STRAIGHT, NARROW = shapes_of(SMALL)
@@ -48,8 +48,7 @@ def test_a_tip_of_one_outline_has_nothing_to_tell() -> None:
 def test_both_free_frames_of_a_run_are_laid_straight_by_one_outline(seed: int) -> None:
     camera = SimulatedCamera(seed, [], SessionParameters.bench(seed))
     detector = Told()
-    analyser = RunMonitor(detector).begin("run")
-    shapes = []
+    analyser = RunAnalyserFactory(detector).begin("run")
     for keyframe in keyframes(5, pipette="p300", volumes=(100.0,)):
         camera.announce(keyframe)
         frame, truth = camera.frame_after(0.0, 1.0), camera.truth
@@ -58,10 +57,11 @@ def test_both_free_frames_of_a_run_are_laid_straight_by_one_outline(seed: int) -
         found = TipDetection(*truth.box, 0.99, truth.tip.orifice, truth.tip.collar)
         detector.found = found
         analyser.observe(keyframe, frame)
-        if keyframe.kind in FREE:
-            shapes.append((frame.image, found))
         if keyframe.kind is FREE[-1]:
-            analyser.judge(keyframe.trajectory)
+            seen = analyser._open[keyframe.trajectory]
+            analyser._stream(keyframe).settle(seen, detector)
             tip = tip_for(keyframe.pipette, keyframe.capacity_ul)
-            laid = [look(image, detection, tip).shape for image, detection in shapes[-2:]]
+            found_in = ((kind, seen.detections[kind]) for kind in FREE)
+            laid = [look(seen.frames, kind, each, tip).shape for kind, each in found_in]
             assert laid[0] == laid[1]
+            analyser.judge(keyframe.trajectory)

@@ -11,11 +11,11 @@ from aegis_ot.sidecar.decisions import effective
 from aegis_ot.vision.camera import Frame
 from aegis_ot.vision.delivery import Delivery, Shown
 from aegis_ot.vision.gates import GateDecision
-from aegis_ot.vision.monitor import RunMonitor
 from aegis_ot.vision.pressure import weighed
+from aegis_ot.vision.run_analyser_factory import RunAnalyserFactory
 from aegis_ot.vocabulary import ChannelOutcome, FailureType, Gate, Keyframe, Outcome
 
-from .test_monitor import Told, judge_run, keyframes
+from .test_run_analyser_factory import Told, judge_run, keyframes
 
 LAST = list(keyframes(1))[-1]
 PASSED = GateDecision(Outcome.PASS, Gate.VOLUMETRIC, "Inside this run's band.")
@@ -111,7 +111,7 @@ def test_in_a_run_the_sensor_stands_beside_what_the_frames_show() -> None:
 @pytest.mark.parametrize("found", [True, False, None])
 def test_of_tips_that_nobody_sees_the_sensor_is_the_only_witness(found: bool | None) -> None:
     head = tuple(f"{row}{column}" for column in range(1, 13) for row in "ABCDEFGH")
-    analyser = RunMonitor(Told()).begin("run")
+    analyser = RunAnalyserFactory(Told()).begin("run")
     for keyframe in keyframes(1, channels=96):
         whole = replace(keyframe, nozzles=head, targets=(None,) * 96, liquid_found=found)
         analyser.observe(whole, Frame(b"", np.zeros((32, 32, 3), np.uint8), 0.0))

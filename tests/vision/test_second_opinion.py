@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from aegis_ot.vision.gates import Case, GateDecision, Gates, OperatorGate, VolumetricGate
+from aegis_ot.vision.gates import GateDecision, GateInput, Gates, OperatorGate, VolumetricGate
 from aegis_ot.vision.second_opinion import SecondOpinion, SpotCheck
 from aegis_ot.vocabulary import Gate, Outcome, Route
 from tests.vision.samples import sample
@@ -20,19 +20,19 @@ class Model:
 
     def __init__(self, outcome: Outcome) -> None:
         self.outcome = outcome
-        self.seen: list[Case] = []
+        self.seen: list[GateInput] = []
 
     @property
     def asked(self) -> int:
         return len(self.seen)
 
-    def examine(self, case: Case) -> GateDecision:
+    def examine(self, case: GateInput) -> GateDecision:
         self.seen.append(case)
         return GateDecision(self.outcome, self.gate, "A column is left in picture 4.")
 
 
-def well(score: float, name: str = "s1", route: Route = Route.SILENT_PASS) -> Case:
-    return Case(sample(name), route, score)
+def well(score: float, name: str = "s1", route: Route = Route.SILENT_PASS) -> GateInput:
+    return GateInput(sample(name), route, score)
 
 
 def test_it_sees_wells_near_the_band_first_wells_and_a_share_of_the_others() -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from aegis_ot.vision.scorers import signs_of
 from aegis_ot.vision.scorers.column import PRIORS
 from aegis_ot.vision.scorers.ensemble import EnsembleScorer
 from aegis_ot.vision.signs import SIGNS
@@ -15,7 +14,7 @@ def test_no_sign_is_without_words_and_none_is_made_up() -> None:
     assert set(SIGNS) == {*PRIORS, "patches"}
     scorer = EnsembleScorer()
     scorer.fit(normals())
-    assert set(signs_of(scorer, trajectory("n", "new", seed=91))) <= set(SIGNS)
+    assert set(scorer.signs(trajectory("n", "new", seed=91))) <= set(SIGNS)
 
 
 def test_a_sign_is_looked_for_in_the_frames_that_show_it() -> None:

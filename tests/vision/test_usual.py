@@ -24,18 +24,6 @@ def test_a_liquid_that_hardly_shows_is_read_less_surely() -> None:
     assert usual.variance(wetness(4.0), 6.0, full=True) > usual.variance(wetness(), 6.0, full=True)
 
 
-def test_a_frame_that_fits_worse_than_usual_strains_a_faint_liquid_alone() -> None:
-    usual = Usual()
-    for _ in range(ENOUGH):
-        usual.note_full(1.0, 0.0, 0.6)
-    faint, plain, fit = (
-        Wetness(wetness().u, np.zeros(100), np.ones(100), power, misfit=misfit)
-        for power, misfit in ((30.0, 1.8), (400.0, 1.8), (30.0, 0.5))
-    )
-    assert usual.strain(faint) == 3.0
-    assert usual.strain(plain) == usual.strain(fit) == 1.0
-
-
 def test_steady_normal_tips_make_readings_surer_and_straying_ones_less_sure() -> None:
     steady, straying, fresh = Usual(), Usual(), Usual()
     for _ in range(8):
@@ -52,17 +40,6 @@ def test_a_short_column_that_strays_makes_a_long_one_no_less_sure() -> None:
         usual.note_empty([1.2, 0.3, 0.1, 0.05])
     short, long = (usual.variance(wetness(), 3.0, full=False, height=share) for share in (0.2, 1.0))
     assert long < 0.2 * short
-
-
-def test_a_break_is_judged_only_beside_the_breaks_of_normal_columns() -> None:
-    usual = Usual()
-    assert usual.gap_limit(wetness()) is None
-    for _ in range(ENOUGH):
-        usual.note_full(1.0, 4.0, 1.0)
-    limit = usual.gap_limit(wetness())
-    assert limit is not None
-    assert limit > 8.0
-    assert usual.gap_limit(wetness(30.0)) is None, "a liquid this faint shows glints"
 
 
 def test_frames_of_another_brightness_are_not_compared() -> None:
@@ -92,5 +69,5 @@ def test_a_frame_that_looks_like_no_tip_of_this_run_is_not_read() -> None:
     assert usual.fits(wetness())
     assert not usual.fits(odd)
     assert usual.fits(plain)
-    usual.note_full(1.0, 0.0, 5.0)
+    usual.note_full(1.0, 5.0)
     assert usual.fits(odd)

@@ -11,16 +11,17 @@ from typing import Any
 from ...errors import RuleError
 from ..rules import read_dataclass
 from .carry import Carry
-from .case import Case
 from .check import Check, Doubt, Violation
 from .dilution import SeriesDirection, SeriesMixed, SeriesTip
 from .dose_order import DoseOrder
+from .drawn_off import DrawnOffBefore
 from .emptied import NothingFromNothing, StockSuffices
 from .filling import SeriesFilledFirst, SeriesFilledFrom
 from .handling import TipAboveBottom, TipsOverWells
 from .order import MixedAfter, ReceivedBefore, RisingOrder
 from .range import VolumeInRange
 from .receiving import NeverReceives, Receives
+from .rule_context import RuleContext
 from .uniform_volume import UniformVolume
 from .volumes import VolumeBookkeeping
 from .written import WrittenIsMoved
@@ -33,6 +34,7 @@ CHECKS: dict[str, type[Check]] = {
     "uniform_volume": UniformVolume,
     "mixed_after": MixedAfter,
     "received_before": ReceivedBefore,
+    "drawn_off_before": DrawnOffBefore,
     "rising_order": RisingOrder,
     "series_mixed": SeriesMixed,
     "series_direction": SeriesDirection,
@@ -65,4 +67,4 @@ def make_check(data: Mapping[str, Any], where: str) -> Check:
     return read_dataclass(CHECKS[name], parameters, where)
 
 
-__all__ = ["CHECKS", "Case", "Doubt", "Violation", "make_check"]
+__all__ = ["CHECKS", "Check", "Doubt", "RuleContext", "Violation", "make_check"]

@@ -13,13 +13,14 @@ from ...vocabulary import Site
 from ..rules import role_names
 from ..source import comparable
 from ..trace import Contact, Met, Tip, Visit, Well
-from .case import Case, carried_liquids
 from .check import Check, Doubt, Result, Violation, surest
 from .practice import is_given_to_all, made_after, was_rinsed
+from .rule_context import RuleContext, carried_liquids
 
 _IN_ALL = "All that is still made of it is given that liquid too: the tip brought nothing new."
 _RINSED = "The tip was rinsed in between: what is left on it is a trace."
 _UNSAID = "Nothing in the protocol says what these wells held."
+_ONE_NAME = "All that it reaches is loaded as '{}': if that is one liquid, nothing new came to it."
 
 
 @dataclass(frozen=True)
@@ -40,6 +41,8 @@ class Carry(Check):
         shared: Whether only wells that serve several destinations are judged.
         unnamed: Whether sources of which nothing says what they hold are carried as well.
         not_into: Roles whose wells are let be, although they have a role of ``into`` as well.
+        rinsable: Whether a tip that was rinsed in between warns: nothing amplifies a trace. So it
+            is in plain transfers.
     """
 
     lasting = True
@@ -52,127 +55,107 @@ class Carry(Check):
     shared: bool = False
     unnamed: bool = False
     not_into: tuple[str, ...] = role_names()
+    rinsable: bool = False
 
-    def claims(self, case: Case, origin: Well, well: Well) -> bool:
+    def claims(self, case: RuleContext, origin: Well, well: Well) -> bool:
         """As it is of the liquids and of the wells that it looks at."""
         kept = case.has(well, self.into) and not case.has(well, self.not_into)
         return kept and case.has(origin, self.carried)
 
-    def find(self, case: Case) -> Iterator[Result]:
+    def find(self, case: RuleContext) -> Iterator[Result]:
+        if not (case.trace.transfers or case.trace.mixes):
+            return  # all that was drawn goes back where it came from: a run that tries its moves
         carriers = set(case.wells(self.carried))
         if self.unnamed:
             carriers.update(well for well in case.destinations if not case.of(well))
-        once = not (self.stock or self.pooled)  # later visits are judged as the first
-        judged: dict[tuple[Tip, Well], int] = {}
-        # What the tip carries may do harm at a later visit to the well, or surely do it then.
-        open_: dict[tuple[Tip, Well], list[tuple[Well, Met]]] = {}
-        found: dict[tuple[Tip, Well, Well], Violation] = {}
-        rising: dict[Well, Well] = {}
-        twins: dict[Well, Well] = {}
-        for visit in case.trace.visits:
-            if not visit.contact or not visit.carried:
-                continue
-            well = visit.well
-            if not case.has(well, self.into) or case.has(well, self.not_into):
-                continue
-            made = case.made_of.get(well, ())
-            if self.shared and len(made) < 2:
-                continue
-            if well.ref in case.waste and not (made and visit.kind is OperationKind.ASPIRATE):
-                continue  # it is meant for all
-            if self.stock and not made:
-                continue  # tips are rinsed in it; nothing is made of it
-            key = (visit.tip, well)
-            carried = (*open_.pop(key, ()), *carried_liquids(visit, judged.get(key, 0)))
-            for origin, met in carried:
-                if origin not in carriers or origin is well:
+        so_far = _SoFar()
+        harmful = {well for well in carriers if not _only_rinses(case, well)}
+        for visit in self._visits(case) if harmful else ():
+            for origin, met in so_far.carried(visit):
+                if origin not in harmful or origin is visit.well:
                     continue
-                if (claimed := case.is_claimed(origin, well)) is True:
-                    continue
-                near = min(met.contact(visit.index), visit.contact) is Contact.NEAR
-                if near and (*key, origin) in found:
-                    again = True  # nothing new
-                elif self._let_be(case, visit, origin, met):
-                    again = not once
-                    if case.are_twins(origin, well):
-                        twins.setdefault(origin, well)
-                elif claimed is None or (
-                    case.left_over and self.pooled and _is_rising(case, origin, well)
-                ):
-                    rising.setdefault(origin, well)
-                    again = False
-                else:
-                    again = near
-                    violation = self._violation(case, visit, origin, met)
-                    # In an assay that is known, a trace of a reagent, or of what all that is made
-                    # of a stock is given as well, is accepted practice.
-                    trace = self.via_destination == "only" and case.is_one_liquid(origin)
-                    if not (case.beside and (trace or violation.warning == _IN_ALL)):
-                        surest(found, (*key, origin), violation)
-                if again:
-                    open_.setdefault(key, []).append((origin, met))
-            judged[key] = visit.carried
-        yield from found.values()
-        for origin, well in islice(rising.items(), 1):
-            why = f"{origin.ref} and {well.ref} may hold rising standards, or two samples"
-            yield Doubt(why, roles_of=tuple(rising))
-        for origin, well in islice(twins.items(), 1):
-            name = origin.liquids[0]
-            yield Doubt(
-                f"{origin.ref} and {well.ref}, both '{name}', may hold the same or two things"
-            )
+                if self._judge(case, visit, origin, met, so_far):
+                    so_far.again(visit, origin, met)
+            so_far.judged[visit.tip, visit.well] = visit.carried
+        yield from so_far.results()
         if doubt := self._unnamed_contact(case, carriers) or self._mixed_contact(case):
             yield doubt
 
-    def _let_be(self, case: Case, visit: Visit, origin: Well, met: Met) -> bool:
+    def _visits(self, case: RuleContext) -> Iterator[Visit]:
+        """Visits to wells of ``into`` that something is carried to, and does harm to."""
+        # What tips are rinsed in harms nothing: nothing is made of it.
+        fewest = 2 if self.shared else 1 if self.stock else 0
+        made = case.made_of
+        kept = {
+            well: well.ref in case.waste
+            for well in case.wells(self.into)
+            if not case.has(well, self.not_into) and len(made.get(well, ())) >= fewest
+        }
+        for visit in case.trace.visits:
+            is_waste = kept.get(visit.well) if visit.contact and visit.carried else None
+            if is_waste is None:
+                continue
+            # Waste is meant for all.
+            if not is_waste or (visit.kind is OperationKind.ASPIRATE and made.get(visit.well)):
+                yield visit
+
+    def _judge(
+        self, case: RuleContext, visit: Visit, origin: Well, met: Met, so_far: _SoFar
+    ) -> bool:
+        """Note what a liquid does to the well that it is carried to; whether it may do harm at a
+        later visit to the well, or surely do it then."""
+        well = visit.well
+        claimed = case.is_claimed(origin, well)
+        if claimed is True:
+            return False
+        near = min(met.contact(visit.index), visit.contact) is Contact.NEAR
+        place = (visit.tip, well, origin)
+        if near and place in so_far.found:
+            return True  # nothing new
+        if self._is_exempt(case, visit, origin, met):
+            if case.are_twins(origin, well):
+                so_far.twins.setdefault(origin, well)
+            return self.stock or self.pooled  # else later visits are judged as the first
+        if claimed is None or (case.left_over and self.pooled and _is_rising(case, origin, well)):
+            so_far.rising.setdefault(origin, well)
+            return False
+        violation = self._violation(case, visit, origin, met)
+        # In an assay that is known, a trace of a reagent, or of what all that is made of a stock
+        # is given as well, is accepted practice.
+        trace = self.via_destination == "only" and case.is_one_liquid(origin)
+        if not (case.beside and (trace or violation.warning == _IN_ALL)):
+            surest(so_far.found, place, violation)
+        return near
+
+    def _is_exempt(self, case: RuleContext, visit: Visit, origin: Well, met: Met) -> bool:
+        """Whether the liquid may come into the well."""
         well = visit.well
         if case.same_liquid(origin, well):
             return True
         if self.via_destination:
-            filled = (
-                origin is not met.well
-                # When the tip met it, something had been put into it.
-                or min(case.meant.get(met.well, {}).values(), default=math.inf) <= met.index
-                # A sample's tip has been in its destination too; with buffers it matters less.
-                or (
-                    bool(case.of(origin))
-                    and not case.is_one_liquid(origin)
-                    and any(
-                        case.meant.get(other, {}).get(origin, visit.index) < visit.index
-                        for other in islice(visit.tip.touched, visit.met)
-                    )
-                )
-            )
-            if filled != (self.via_destination == "only"):
+            is_of_others = _was_filled(case, visit, origin, met) != (self.via_destination == "only")
+            if is_of_others:
                 return True
         if self.stock:
-            if met.well is well or (origin.liquids and origin.liquids == well.liquids):
-                return True  # it was in the stock already, or is loaded as the same
-            drawn_for = case.destinations.get(well, {})
-            told = case.beside and self.via_destination == "not" and origin.liquids
-            if told and all(origin.liquids == dest.liquids for dest in drawn_for):
-                return True  # cells of one name stand in all wells that it serves
-            if len(drawn_for) == 1 and all(origin in case.meant[dest] for dest in drawn_for):
-                return True  # all that is drawn from it goes to one well, which holds that as well
-            return origin in case.meant.get(well, {}) and (
-                _on_purpose(well, origin, visit) or self._made_of(case, visit, origin)
-            )
-        if case.is_given(well, origin):
-            return True
-        if self.pooled:
-            # Water and then sample, drawn for one well, spoils no sample for its other uses.
-            clean = case.is_one_liquid(origin)
-            given = [
-                dest is origin or case.is_given(dest, origin)
-                for dest in made_after(case, well, visit.index, further=clean)
-                # What is washed is kept; what is drawn off to the waste is not.
-                if visit.kind is OperationKind.ASPIRATE or dest.ref not in case.waste
-            ]
-            if any(given) if clean else given and all(given):
-                return True
-        return False
+            return self._is_in_stock(case, visit, origin, met)
+        return case.is_given(well, origin) or (self.pooled and _is_pooled(case, visit, origin))
 
-    def _unnamed_contact(self, case: Case, carriers: Set[Well]) -> Doubt | None:
+    def _is_in_stock(self, case: RuleContext, visit: Visit, origin: Well, met: Met) -> bool:
+        """Whether the stock holds the liquid already, or is meant to."""
+        well = visit.well
+        if met.well is well or (origin.liquids and origin.liquids == well.liquids):
+            return True  # it was in the stock already, or is loaded as the same
+        drawn_for = case.destinations.get(well, {})
+        told = case.beside and self.via_destination == "not" and origin.liquids
+        if told and all(origin.liquids == dest.liquids for dest in drawn_for):
+            return True  # cells of one name stand in all wells that it serves
+        if len(drawn_for) == 1 and all(origin in (dest, *case.meant[dest]) for dest in drawn_for):
+            return True  # all that is drawn from it goes to one well, which holds that as well
+        return origin in case.meant.get(well, {}) and (
+            _on_purpose(well, origin, visit) or self._made_of(case, visit, origin)
+        )
+
+    def _unnamed_contact(self, case: RuleContext, carriers: Set[Well]) -> Doubt | None:
         """The first contact that would break a rule if an unnamed source were what it may be.
 
         A rule counts as decided only if every well that could break it has a role, or is shown to
@@ -186,33 +169,27 @@ class Carry(Check):
         if any(case.family.roles[role].side != "destination" for role in self.into):
             stocks = {well for well in unnamed if len(case.made_of.get(well, ())) > 1}
             sources = stocks & drawn if self.shared else drawn
-        for visit in case.trace.visits if drawn or stocks else ():
-            well = visit.well
-            if not visit.contact or not visit.carried or well.ref in case.waste:
-                continue
-            if self.stock and not case.made_of.get(well, ()):
-                continue
-            met_before = (carriers if well in stocks else set()) | (
-                drawn if well in sources or case.has(well, self.into) else set()
-            )
+        judged: dict[Well, Set[Well]] = {
+            well: (carriers if well in stocks else set())
+            | (drawn if well in sources or case.has(well, self.into) else set())
+            for well in (case.trace.wells.values() if drawn or stocks else ())
+            if well.ref not in case.waste and not (self.stock and not case.made_of.get(well))
+        }
+        for visit in case.trace.visits if any(judged.values()) else ():
+            met_before = judged.get(visit.well, set()) if visit.contact else set()
             for origin, met in carried_liquids(visit) if met_before else ():
-                if origin not in met_before:
-                    continue
-                if case.is_claimed(origin, well) or origin in case.meant.get(well, {}):
-                    continue
-                if self._let_be(case, visit, origin, met):
-                    continue
-                if case.of(well):
-                    enters = f"its tip enters the {case.title(well)} {well.ref} {case.at(visit)}"
-                    why = f"nothing says what {origin.ref} holds, and {enters}"
-                else:
-                    what = case.title(origin) if case.of(origin) else str(origin.ref)
-                    enters = f"that met {what} {case.at(met)} enters it {case.at(visit)}"
-                    why = f"nothing says what {well.ref} holds, and the tip {enters}"
-                return Doubt(why, roles_of=tuple(o for o in unnamed if o in drawn or o is well))
+                if origin in met_before and self._may_harm(case, visit, origin, met):
+                    named = (one for one in unnamed if one in drawn or one is visit.well)
+                    return Doubt(_why_unnamed(case, visit, origin, met), roles_of=tuple(named))
         return None
 
-    def _mixed_contact(self, case: Case) -> Doubt | None:
+    def _may_harm(self, case: RuleContext, visit: Visit, origin: Well, met: Met) -> bool:
+        well = visit.well
+        if case.is_claimed(origin, well) or origin in case.meant.get(well, {}):
+            return False
+        return not self._is_exempt(case, visit, origin, met)
+
+    def _mixed_contact(self, case: RuleContext) -> Doubt | None:
         """The first return to a stock of a tip that mixed it, and nothing else as far as is known,
         in wells of which nobody says that they were empty: one mixes what is not one liquid.
         """
@@ -241,7 +218,7 @@ class Carry(Check):
             return None
         return Doubt(mixed[open_[0]], roles_of=tuple(open_), side="destination")
 
-    def _made_of(self, case: Case, visit: Visit, origin: Well) -> bool:
+    def _made_of(self, case: RuleContext, visit: Visit, origin: Well) -> bool:
         """Whether the liquid is brought as a measured volume to make what the well is drawn for.
 
         Then nothing made of the well afterwards is given such a liquid in another way.
@@ -269,7 +246,7 @@ class Carry(Check):
             for one in dest.received
         )
 
-    def _violation(self, case: Case, visit: Visit, origin: Well, met: Met) -> Violation:
+    def _violation(self, case: RuleContext, visit: Visit, origin: Well, met: Met) -> Violation:
         well = visit.well
         what = case.title(origin)
         where = f"{met.well.ref} {case.at(met)}"
@@ -282,25 +259,36 @@ class Carry(Check):
             began = f"The tip that touched {where}, which holds {held} {source},"
         message = f"{began} entered the {case.title(well)} {well.ref} {case.at(visit)}."
         contact = min(met.contact(visit.index), visit.contact)
+        judged = self.pooled or self.rinsable
+        warning = self._why_warning(case, visit, origin, met) if judged else ""
+        # Tips that are washed are washed throughout: told once.
+        cause = (warning,) if warning == _RINSED else (visit.line, met.line, what)
         return Violation(
             message,
             (
-                Site(met.line, met.well.ref, f"met {what}"),
-                Site(visit.line, well.ref, f"entered the {case.title(well)}"),
+                Site(met.line, met.well.ref, f"met {what}", met.index),
+                Site(visit.line, well.ref, f"entered the {case.title(well)}", visit.index),
             ),
-            (visit.line, met.line, what),
+            cause,
             (origin, well),
             tip=(visit.tip.number, what, case.title(well)),
             contact=contact,
-            warning=self._why_warning(case, visit, origin, met) if self.pooled else "",
+            warning=warning,
+            shown=self.stock,
             # A liquid that stands in all wells may be meant to come along.
             in_any_assay=contact is Contact.WET and not case.is_one_liquid(origin),
         )
 
-    def _why_warning(self, case: Case, visit: Visit, origin: Well, met: Met) -> str:
+    def _why_warning(self, case: RuleContext, visit: Visit, origin: Well, met: Met) -> str:
         """Why it is a warning at most, in a sentence; empty for what is surely wrong."""
-        if case.family.default and was_rinsed(case, visit):
+        if (case.family.default or self.rinsable) and was_rinsed(case, visit, origin):
             return _RINSED
+        if not self.pooled:
+            return ""
+        others = case.made_of.get(visit.well, ()) if self.stock else (visit.well,)
+        loaded = [one for one in others if one.liquids]
+        if loaded and case.go_by_one_name(origin, loaded):
+            return _ONE_NAME.format(origin.liquids[0])
         if self.via_destination == "not":
             told = not self.shared or case.is_said_to_hold(origin)
             return "" if told else _UNSAID
@@ -308,7 +296,88 @@ class Carry(Check):
         return _IN_ALL if back and is_given_to_all(case, visit, origin, met) else ""
 
 
-def _is_rising(case: Case, origin: Well, well: Well) -> bool:
+class _SoFar:
+    """What was found in the visits so far.
+
+    Attributes:
+        judged: How many of the liquids that a tip carries have been judged at a well.
+        found: The violation of each tip, well and liquid.
+        rising, twins: Liquids with a well where it is open whether they harm it.
+    """
+
+    def __init__(self) -> None:
+        self.judged: dict[tuple[Tip, Well], int] = {}
+        self.found: dict[tuple[Tip, Well, Well], Violation] = {}
+        self.rising: dict[Well, Well] = {}
+        self.twins: dict[Well, Well] = {}
+        self._open: dict[tuple[Tip, Well], list[tuple[Well, Met]]] = {}
+
+    def carried(self, visit: Visit) -> tuple[tuple[Well, Met], ...]:
+        """What is to be judged at a visit: what was left open there, and what the tip has met
+        since."""
+        key = (visit.tip, visit.well)
+        return (*self._open.pop(key, ()), *carried_liquids(visit, self.judged.get(key, 0)))
+
+    def again(self, visit: Visit, origin: Well, met: Met) -> None:
+        """It is judged again at the tip's next visit to the well."""
+        self._open.setdefault((visit.tip, visit.well), []).append((origin, met))
+
+    def results(self) -> Iterator[Result]:
+        """All violations, and the first of each kind of doubt."""
+        yield from self.found.values()
+        for origin, well in islice(self.rising.items(), 1):
+            why = f"{origin.ref} and {well.ref} may hold rising standards, or two samples"
+            yield Doubt(why, roles_of=tuple(self.rising))
+        for origin, well in islice(self.twins.items(), 1):
+            name = origin.liquids[0]
+            yield Doubt(
+                f"{origin.ref} and {well.ref}, both '{name}', may hold the same or two things"
+            )
+
+
+def _was_filled(case: RuleContext, visit: Visit, origin: Well, met: Met) -> bool:
+    """Whether the run had put something into the well in which the tip met the liquid."""
+    if origin is not met.well:
+        return True
+    if min(case.meant.get(met.well, {}).values(), default=math.inf) <= met.index:
+        return True
+    # A sample's tip has been in its destination too; with buffers it matters less.
+    return (
+        bool(case.of(origin))
+        and not case.is_one_liquid(origin)
+        and any(
+            case.meant.get(other, {}).get(origin, visit.index) < visit.index
+            for other in islice(visit.tip.touched, visit.met)
+        )
+    )
+
+
+def _is_pooled(case: RuleContext, visit: Visit, origin: Well) -> bool:
+    """Whether what is made of the well is meant to hold the liquid too.
+
+    Water and then sample, drawn for one well, spoils no sample for its other uses.
+    """
+    clean = case.is_one_liquid(origin)
+    given = [
+        dest is origin or case.is_given(dest, origin)
+        for dest in made_after(case, visit.well, visit.index, further=clean)
+        # What is washed is kept; what is drawn off to the waste is not.
+        if visit.kind is OperationKind.ASPIRATE or dest.ref not in case.waste
+    ]
+    return any(given) if clean else bool(given) and all(given)
+
+
+def _why_unnamed(case: RuleContext, visit: Visit, origin: Well, met: Met) -> str:
+    well = visit.well
+    if case.of(well):
+        enters = f"its tip enters the {case.title(well)} {well.ref} {case.at(visit)}"
+        return f"nothing says what {origin.ref} holds, and {enters}"
+    what = case.title(origin) if case.of(origin) else str(origin.ref)
+    enters = f"that met {what} {case.at(met)} enters it {case.at(visit)}"
+    return f"nothing says what {well.ref} holds, and the tip {enters}"
+
+
+def _is_rising(case: RuleContext, origin: Well, well: Well) -> bool:
     """Whether a well, or what it is given, has a greater number beside it than the liquid that is
     carried there, of which no more is known than its number.
     """
@@ -317,6 +386,12 @@ def _is_rising(case: Case, origin: Well, well: Well) -> bool:
     return mine is not None and any(
         level is not None and mine < level and comparable(mine, level) for level in levels
     )
+
+
+def _only_rinses(case: RuleContext, origin: Well) -> bool:
+    """Whether a shared liquid goes to the waste alone: what tips are rinsed with."""
+    thrown = origin in case.destinations and not case.made_of[origin]
+    return thrown and case.is_one_liquid(origin)
 
 
 def _on_purpose(stock: Well, origin: Well, visit: Visit) -> bool:

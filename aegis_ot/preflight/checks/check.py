@@ -8,12 +8,14 @@ from typing import Any, ClassVar
 
 from ...vocabulary import Site, WellRef
 from ..trace import Contact, Well
-from .case import Case
+from .rule_context import RuleContext
 
 
-@dataclass(frozen=True)
+@dataclass(eq=False, slots=True)
 class Violation:
     """One place where a rule is broken, before places of one cause are joined.
+
+    Of one tip for a whole plate there are thousands, so they are cheap to make.
 
     Attributes:
         message: One sentence in plain words about this place.
@@ -25,6 +27,7 @@ class Violation:
         warning: Why it is a warning at most, in a sentence; empty for what surely ruins the assay.
         told_by: A rule that, where it finds something in the same well, says this better.
         in_any_assay: Whether it holds by what happened and by names alone, whatever the assay is.
+        shown: Whether names that differ, and the run's use of the wells, agree on what they hold.
     """
 
     message: str
@@ -35,6 +38,7 @@ class Violation:
     warning: str = ""
     told_by: str = ""
     in_any_assay: bool = False
+    shown: bool = False
     tip: tuple[Any, ...] = ()
 
     @property
@@ -89,17 +93,17 @@ class Check:
 
     lasting: ClassVar[bool] = False
 
-    def demanded(self, case: Case) -> Collection[str]:
+    def demanded(self, case: RuleContext) -> Collection[str]:
         """Roles without which it does not hold; what else is not there cannot break it."""
         return ()
 
-    def claims(self, case: Case, origin: Well, well: Well) -> bool | None:
+    def claims(self, case: RuleContext, origin: Well, well: Well) -> bool | None:
         """Whether it judges what a tip brings from one well into another: then that is right or
         wrong by its family's rule, and not by composition. ``None``: it may, were it known what
         these wells are for.
         """
         return False
 
-    def find(self, case: Case) -> Iterable[Result]:
+    def find(self, case: RuleContext) -> Iterable[Result]:
         """Places where it does not hold, and places that it cannot judge."""
         raise NotImplementedError

@@ -9,9 +9,9 @@ from dataclasses import dataclass
 from ...instrumentation import OperationKind
 from ...vocabulary import Site
 from ..trace import Tip, Transfer, Visit, Well
-from .case import Case, at
 from .check import Check, Doubt, Result, Violation
-from .series import Series, branching
+from .rule_context import RuleContext, at
+from .series import Series, SeriesFinder, branching
 
 _BY_HAND = "None of the wells in which this series ends is mixed; that may be done by hand."
 _MIXED = "Each step is mixed before the next, which rinses the tip: common practice, not exact."
@@ -21,29 +21,29 @@ _MIXED = "Each step is mixed before the next, which rinses the tip: common pract
 class SeriesCheck(Check):
     """A check on each dilution series by itself."""
 
-    def find(self, case: Case) -> Iterator[Result]:
-        if not case.series.found:
+    def find(self, case: RuleContext) -> Iterator[Result]:
+        if not case.once(SeriesFinder).found:
             yield Doubt("no chain of transfers from well to well was found")
-        for series in case.series.found:
+        for series in case.once(SeriesFinder).found:
             yield from self.along(case, series)
 
-    def along(self, case: Case, series: Series) -> Iterator[Result]:
+    def along(self, case: RuleContext, series: Series) -> Iterator[Result]:
         """What is wrong with one series, or cannot be judged of it."""
         raise NotImplementedError
 
 
-def diluent_arrivals(case: Case, well: Well) -> list[int]:
+def diluent_arrivals(case: RuleContext, well: Well) -> list[int]:
     """Index of each delivery of diluent to a well."""
     return [
         one.visit.index
         for one in well.received
         if case.has(one.source, case.family.series.diluent)
-        or one.source in case.series.fillers
+        or one.source in case.once(SeriesFinder).fillers
         or _is_made_diluent(case, one)
     ]
 
 
-def _is_made_diluent(case: Case, one: Transfer) -> bool:
+def _is_made_diluent(case: RuleContext, one: Transfer) -> bool:
     """Whether a source elsewhere was filled in the run with diluent, and with no stock."""
     return (
         one.source.ref.labware != one.well.ref.labware
@@ -53,7 +53,7 @@ def _is_made_diluent(case: Case, one: Transfer) -> bool:
     )
 
 
-def dilutions(case: Case, series: Series) -> list[Transfer]:
+def dilutions(case: RuleContext, series: Series) -> list[Transfer]:
     """The steps that dilute.
 
     Undiluted stock in an empty first well is none: that well never gets diluent, or only after it
@@ -68,7 +68,7 @@ def dilutions(case: Case, series: Series) -> list[Transfer]:
     ]
 
 
-def is_mixed(case: Case, step: Transfer) -> bool:
+def is_mixed(case: RuleContext, step: Transfer) -> bool:
     """Whether a step's well is mixed before liquid is carried on from there."""
     return case.trace.mixed_since(step.well, step.visit.index, _drawn_at(step))
 
@@ -96,7 +96,7 @@ def next_draw(step: Transfer) -> Visit | None:
 class SeriesMixed(SeriesCheck):
     """Every dilution step is mixed in its well before liquid is drawn on from there."""
 
-    def along(self, case: Case, series: Series) -> Iterator[Result]:
+    def along(self, case: RuleContext, series: Series) -> Iterator[Result]:
         steps = dilutions(case, series)
         by_hand = _left_to_hand(case, steps)
         for step in steps:
@@ -108,14 +108,16 @@ class SeriesMixed(SeriesCheck):
                 f"The dilution into {step.well.ref} {at(step.visit.line)} is not mixed {then}.",
                 (
                     Site(step.drawn, step.source.ref, "drew the more concentrated solution"),
-                    Site(step.visit.line, step.well.ref, "diluted here, not mixed"),
+                    Site(
+                        step.visit.line, step.well.ref, "diluted here, not mixed", step.visit.index
+                    ),
                 ),
-                (step.visit.line,),
+                (_BY_HAND,) if step.well in by_hand else (step.visit.line,),
                 warning=_BY_HAND if step.well in by_hand else "",
             )
 
 
-def _left_to_hand(case: Case, steps: Sequence[Transfer]) -> set[Well]:
+def _left_to_hand(case: RuleContext, steps: Sequence[Transfer]) -> set[Well]:
     """The last wells of a series that branches, where none of them is mixed: one may be forgotten,
     all are left to whoever takes them off the deck.
     """
@@ -124,7 +126,7 @@ def _left_to_hand(case: Case, steps: Sequence[Transfer]) -> set[Well]:
     return set() if len(wells) < 2 or any(is_mixed(case, step) for step in ends) else wells
 
 
-def _unknown_direction(case: Case, series: Series) -> Doubt:
+def _unknown_direction(case: RuleContext, series: Series) -> Doubt:
     ends = tuple(sorted(series.position, key=series.position.__getitem__))
     why = "nothing says which end of the series holds the stock"
     return Doubt(why, roles_of=(ends[0], ends[-1]), role=case.family.series.stock[0])
@@ -134,7 +136,7 @@ def _unknown_direction(case: Case, series: Series) -> Doubt:
 class SeriesDirection(SeriesCheck):
     """The series runs from the most to the least concentrated well, one well at a time."""
 
-    def along(self, case: Case, series: Series) -> Iterator[Result]:
+    def along(self, case: RuleContext, series: Series) -> Iterator[Result]:
         if not series.directed:
             yield _unknown_direction(case, series)
         branches = branching(series.links)
@@ -158,7 +160,7 @@ class SeriesDirection(SeriesCheck):
                 f"{step.well.ref} {at(step.visit.line)}.",
                 (
                     Site(step.drawn, step.source.ref, "drew from here"),
-                    Site(step.visit.line, step.well.ref, f"diluted {what}"),
+                    Site(step.visit.line, step.well.ref, f"diluted {what}", step.visit.index),
                 ),
                 (step.visit.line, jump < 0),
             )
@@ -171,21 +173,21 @@ class SeriesTip(SeriesCheck):
     The two wells of the first step that it makes are excepted.
     """
 
-    def claims(self, case: Case, origin: Well, well: Well) -> bool | None:
+    def claims(self, case: RuleContext, origin: Well, well: Well) -> bool | None:
         """As one well of a series, or what is diluted along it, in another; two series may be two
         samples or one.
         """
         of_origin, of_well = (
             {
                 id(series)
-                for series in case.series.found
+                for series in case.once(SeriesFinder).found
                 if one in series.position or any(step.source is one for step in series.steps)
             }
             for one in (origin, well)
         )
         return True if of_origin & of_well else None if of_origin and of_well else False
 
-    def along(self, case: Case, series: Series) -> Iterator[Result]:
+    def along(self, case: RuleContext, series: Series) -> Iterator[Result]:
         if not series.entered:
             yield _unknown_direction(case, series)
         steps = dilutions(case, series)
@@ -219,8 +221,13 @@ def _one_tip(
                 f"The tip that touched the more concentrated {before.well.ref} "
                 f"{at(before.line)} entered {visit.well.ref} {at(visit.line)}.",
                 (
-                    Site(before.line, before.well.ref, "touched the more concentrated well"),
-                    Site(visit.line, visit.well.ref, "entered a later well"),
+                    Site(
+                        before.line,
+                        before.well.ref,
+                        "touched the more concentrated well",
+                        before.index,
+                    ),
+                    Site(visit.line, visit.well.ref, "entered a later well", visit.index),
                 ),
                 ("series tip",),
                 contact=min(before.contact, visit.contact),

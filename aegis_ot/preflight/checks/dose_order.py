@@ -11,8 +11,8 @@ from ...vocabulary import Site
 from ..rules import role_names
 from ..source import comparable, lexicon_of
 from ..trace import Contact, Met, Visit, Well
-from .case import Case, carried_liquids
 from .check import Check, Doubt, Result, Violation, surest
+from .rule_context import RuleContext, carried_liquids
 
 
 @dataclass(frozen=True)
@@ -31,14 +31,14 @@ class DoseOrder(Check):
     liquid: tuple[str, ...] = role_names(required=True)
     wells: tuple[str, ...] = role_names(required=True)
 
-    def claims(self, case: Case, origin: Well, well: Well) -> bool | None:
+    def claims(self, case: RuleContext, origin: Well, well: Well) -> bool | None:
         """As a dose, or a dosed well, in another of them; and back into the dose's tube."""
         dosed = (*self.liquid, *self.wells)
         if any(case.of(one) and not case.has(one, dosed) for one in (origin, well)):
             return False
         return True if case.of(origin) and case.of(well) else None
 
-    def find(self, case: Case) -> Iterator[Result]:
+    def find(self, case: RuleContext) -> Iterator[Result]:
         doses = self._doses(case)
         found: dict[tuple[int, int], Result] = {}
         for visit in case.trace.visits:
@@ -59,7 +59,7 @@ class DoseOrder(Check):
                 surest(found, key, violation)
         yield from found.values()
 
-    def _doses(self, case: Case) -> dict[Well, dict[Well, float]]:
+    def _doses(self, case: RuleContext) -> dict[Well, dict[Well, float]]:
         """For each well the µL of each dosed liquid that it is given in the whole run."""
         doses: dict[Well, dict[Well, float]] = defaultdict(lambda: defaultdict(float))
         for one in case.trace.transfers:
@@ -69,7 +69,7 @@ class DoseOrder(Check):
         return doses
 
     def _other(
-        self, case: Case, visit: Visit, origin: Well, met: Met, here: dict[Well, float]
+        self, case: RuleContext, visit: Visit, origin: Well, met: Met, here: dict[Well, float]
     ) -> Result | None:
         """The tip carries a liquid that this well never gets."""
         mine = case.roles.level(origin.ref)
@@ -97,8 +97,8 @@ class DoseOrder(Check):
             f"The tip that met {what} {case.at(met)} entered {visit.well.ref}, {harm}, "
             f"{case.at(visit)}.",
             (
-                Site(met.line, met.well.ref, f"met {case.title(origin)}"),
-                Site(visit.line, visit.well.ref, f"entered {harm}"),
+                Site(met.line, met.well.ref, f"met {case.title(origin)}", met.index),
+                Site(visit.line, visit.well.ref, f"entered {harm}", visit.index),
             ),
             (visit.line, met.line, harm),
             (origin, visit.well),
@@ -107,7 +107,7 @@ class DoseOrder(Check):
 
     def _higher(
         self,
-        case: Case,
+        case: RuleContext,
         visit: Visit,
         here: dict[Well, float],
         doses: dict[Well, dict[Well, float]],
@@ -128,8 +128,13 @@ class DoseOrder(Check):
                     f"The tip that touched {other.ref}, a well of a higher dose, "
                     f"{case.at(met)} entered {visit.well.ref} {case.at(visit)}.",
                     (
-                        Site(met.line, other.ref, "touched a well of a higher dose"),
-                        Site(visit.line, visit.well.ref, "entered a well of a lower dose"),
+                        Site(met.line, other.ref, "touched a well of a higher dose", met.index),
+                        Site(
+                            visit.line,
+                            visit.well.ref,
+                            "entered a well of a lower dose",
+                            visit.index,
+                        ),
                     ),
                     (visit.line, met.line, "falling"),
                     (other, visit.well),
@@ -137,7 +142,7 @@ class DoseOrder(Check):
                 )
 
 
-def _in_one_list(case: Case, one: Well, other: Well) -> bool:
+def _in_one_list(case: RuleContext, one: Well, other: Well) -> bool:
     """Whether two wells have their role from one name, and may be doses of one compound."""
     mine, theirs = case.roles.by_well.get(one.ref), case.roles.by_well.get(other.ref)
     if mine is None or theirs is None:

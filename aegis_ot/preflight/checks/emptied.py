@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from ...instrumentation import OperationKind
 from ...vocabulary import Site
-from ..trace import Visit, Well
-from .case import Case, at
+from ..source import lexicon_of
+from ..trace import FALLS_MM, Visit, Well
 from .check import Check, Result, Violation, microlitres
+from .rule_context import RuleContext, at
 from .volumes import goes_to_waste
+
+_SMALLEST_TROUGH_UL = 1000.0
+_NO_TROUGH = "It is called a reservoir, and no reservoir holds so little: mend its definition."
+_SWEPT = "All of it goes into one well: it may be drawn to leave nothing behind."
+_TALLER = "The run gives from far above such labware: what stands there is taller: define it."
 
 
 @dataclass(frozen=True)
@@ -20,18 +26,43 @@ class StockSuffices(Check):
     What goes to the waste over-reaches to empty the well.
     """
 
-    def find(self, case: Case) -> Iterator[Result]:
+    def find(self, case: RuleContext) -> Iterator[Result]:
+        taller = _taller(case) if case.trace.overdrawn else set()
         for well, visit in case.trace.overdrawn.items():
             if well.ref in case.waste or well.runs_through or goes_to_waste(case, visit):
                 continue
             needed, first = _needed(well), well.visits[0]
+            warning = _NO_TROUGH if _is_no_trough(case, well) else ""
+            if len(case.destinations.get(well, ())) == 1 and well.received:
+                warning = _SWEPT  # no stock: what the run made there goes on as a whole
+            if case.trace.labware[well.ref.labware].load_name in taller:
+                warning = _TALLER
             told = (
                 f"{microlitres(needed)} are drawn from {well.ref} in all, the first "
                 f"{at(first.line)}; filled to the brim it holds {microlitres(well.brim)}, and it "
                 f"runs dry {at(visit.line)}: use a larger vessel, or several with the same liquid."
             )
-            site = Site(visit.line, well.ref, f"{microlitres(needed)} are drawn in all")
-            yield Violation(told, (site,), (visit.line, well.ref.labware))
+            site = Site(
+                visit.line, well.ref, f"{microlitres(needed)} are drawn in all", visit.index
+            )
+            yield Violation(told, (site,), (visit.line, well.ref.labware), warning=warning)
+
+
+def _taller(case: RuleContext) -> set[str]:
+    """Labware, by load name, that the run gives into from far above what its definition says."""
+    return {
+        case.trace.labware[visit.well.ref.labware].load_name
+        for visit in case.trace.visits
+        if visit.step and (visit.step.from_top or 0.0) > FALLS_MM
+    }
+
+
+def _is_no_trough(case: RuleContext, well: Well) -> bool:
+    """Whether a labware that is called a reservoir is defined as one of small wells."""
+    info = case.trace.labware.get(well.ref.labware)
+    named = lexicon_of({"trough": case.common.pauses.get("trough", ())})
+    names = (info.label, info.display_name, info.load_name) if info else ()
+    return well.brim < _SMALLEST_TROUGH_UL and any(map(named.find, names))
 
 
 def _needed(well: Well) -> float:
@@ -52,40 +83,70 @@ _FEWEST = 3
 @dataclass(frozen=True)
 class NothingFromNothing(Check):
     """Nothing is drawn from, or mixed in, a well that never held anything, in labware that the run
-    itself fills: where one statement draws from wells of a labware of which the run has filled
-    most, the others are empty.
+    itself fills.
 
-    Within a labware liquid is passed on from wells that were filled by hand: that is left out.
+    Where one statement draws from wells of a labware of which the run has filled most, the others
+    are empty. Where it draws from none that the run has filled, and as many that are filled are
+    never touched again, it means those. A well that is only mixed, on a plate of which all others
+    were filled, is empty too. Within a labware liquid is passed on from wells that were filled by
+    hand: that is left out.
     """
 
-    def find(self, case: Case) -> Iterator[Result]:
+    def find(self, case: RuleContext) -> Iterator[Result]:
         drawn: dict[tuple[object, ...], dict[Well, Visit]] = {}
+        plates: dict[tuple[str, int], list[Well]] = {}
         for visit in case.trace.visits:
             if visit.kind is OperationKind.ASPIRATE:
                 place = (visit.line, visit.caller, *visit.well.plate)
                 drawn.setdefault(place, {}).setdefault(visit.well, visit)
+        for well in case.trace.wells.values():
+            plates.setdefault(well.plate, []).append(well)
         for cause, visits in drawn.items():
-            filled = [one for one in visits.values() if _was_filled(one)]
-            if len(filled) < _FEWEST:
+            filled = [one.well for one in visits.values() if _was_filled(one)]
+            begun = min(one.index for one in visits.values() if not filled or _was_filled(one))
+            bare = [one for one in visits.values() if one.index >= begun and _is_bare(case, one)]
+            if not bare:
                 continue
-            begun = min(one.index for one in filled)
-            bare = [
-                one
-                for one in visits.values()
-                if one.well.assumed and one.index > begun and one is one.well.visits[0]
-                if not one.well.liquids and one.well.ref not in case.unsure
-                if one.mixing or not _stays(case, one.well)
-            ]
-            if len(bare) >= len(filled):
-                continue
-            for one in bare:
+            if len(filled) < _FEWEST or len(bare) >= len(filled):
+                filled = _filled_elsewhere(bare, visits, plates[bare[0].well.plate])
+            for one in bare if len(filled) >= _FEWEST else ():
                 done = "is mixed" if one.mixing else "is drawn from"
                 message = (
                     f"{one.well.ref} {done} {case.at(one)}, and holds nothing: the run fills "
                     f"{len(filled)} other wells for that, but not this one."
                 )
-                site = Site(one.line, one.well.ref, "nothing was put here")
+                site = Site(one.line, one.well.ref, "nothing was put here", one.index)
                 yield Violation(message, (site,), ("bare", *cause))
+
+
+def _is_bare(case: RuleContext, visit: Visit) -> bool:
+    """Whether nothing but this draw says that a well holds anything."""
+    well = visit.well
+    return (
+        well.assumed
+        and visit is well.visits[0]
+        and not (well.liquids or well.ref in case.unsure or case.left_out(well))
+        and (visit.mixing or not _stays(case, well))
+    )
+
+
+def _filled_elsewhere(
+    bare: Sequence[Visit], visits: Mapping[Well, Visit], plate: Sequence[Well]
+) -> list[Well]:
+    """The wells of a plate that the run filled in the place of these."""
+    if len(bare) < len(visits):
+        return []
+    first = min(one.index for one in bare)
+    others = [well for well in plate if well not in visits and well.visits]
+    filled = [well for well in others if well.received and well.received[0].visit.index < first]
+    if all(one.mixing and all(v.mixing for v in one.well.visits) for one in bare):
+        return filled if len(filled) == len(others) else []
+    kept = [
+        well
+        for well in filled
+        if not well.prefilled and all(v.kind is not OperationKind.ASPIRATE for v in well.visits)
+    ]
+    return kept if len(kept) == len(bare) else []
 
 
 def _was_filled(visit: Visit) -> bool:
@@ -93,5 +154,5 @@ def _was_filled(visit: Visit) -> bool:
     return not visit.well.assumed and not visit.well.prefilled and visit.well.fed
 
 
-def _stays(case: Case, well: Well) -> bool:
+def _stays(case: RuleContext, well: Well) -> bool:
     return any(other.ref.labware == well.ref.labware for other in case.destinations.get(well, ()))

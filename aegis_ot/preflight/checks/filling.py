@@ -7,10 +7,10 @@ from dataclasses import dataclass
 
 from ...vocabulary import Site
 from ..trace import Transfer, Well
-from .case import Case, at
 from .check import Doubt, Result, Violation
 from .dilution import SeriesCheck, diluent_arrivals, dilutions
-from .series import Series, first_of, wells_of
+from .rule_context import RuleContext, at
+from .series import Series, SeriesFinder, first_of, wells_of
 
 _GUESSED = "Several buffers are used, and none of them is called the diluent."
 
@@ -19,10 +19,10 @@ _GUESSED = "Several buffers are used, and none of them is called the diluent."
 class SeriesFilledFirst(SeriesCheck):
     """Every well of the series holds its diluent before the more concentrated solution."""
 
-    def demanded(self, case: Case) -> Collection[str]:
+    def demanded(self, case: RuleContext) -> Collection[str]:
         return (*case.family.series.diluent, *case.family.series.diluent_else)
 
-    def along(self, case: Case, series: Series) -> Iterator[Result]:
+    def along(self, case: RuleContext, series: Series) -> Iterator[Result]:
         done: set[Well] = set()
         for step in dilutions(case, series):
             well = step.well
@@ -34,16 +34,19 @@ class SeriesFilledFirst(SeriesCheck):
                 continue
             if not fills and wrong_fill(case, series, step) is not None:
                 continue
+            if not fills and (why := case.left_out(well, self.demanded(case))):
+                yield Doubt(f"{well.ref} is given no diluent: {why}")
+                continue
             if not fills and _filled_by_hand(case, series):
                 yield Doubt("no diluent is seen to be added; it may be there already")
                 return
             sites = [
                 Site(step.drawn, step.source.ref, "drew the more concentrated solution"),
-                Site(step.visit.line, well.ref, "no diluent there yet"),
+                Site(step.visit.line, well.ref, "no diluent there yet", step.visit.index),
             ]
             if fills:
                 late = next(v for v in well.visits if v.index == fills[0])
-                sites.append(Site(late.line, well.ref, "the diluent comes only here"))
+                sites.append(Site(late.line, well.ref, "the diluent comes only here", late.index))
             yield Violation(
                 f"{well.ref} receives the more concentrated solution {at(step.visit.line)} "
                 + ("before its diluent." if fills else "and never any diluent."),
@@ -57,7 +60,7 @@ class SeriesFilledFirst(SeriesCheck):
 class SeriesFilledFrom(SeriesCheck):
     """What the wells of the series are filled with comes from the diluent's own reservoir."""
 
-    def along(self, case: Case, series: Series) -> Iterator[Result]:
+    def along(self, case: RuleContext, series: Series) -> Iterator[Result]:
         diluent = case.family.series.diluent
         for source in case.wells(diluent):
             if not case.roles.is_called(source.ref, (*diluent, *case.family.series.diluent_else)):
@@ -88,16 +91,18 @@ class SeriesFilledFrom(SeriesCheck):
                 f"{source.ref}, {at(wrong.drawn)}, where its diluent should come.",
                 (
                     Site(wrong.drawn, source.ref, "drew this in the diluent's place"),
-                    Site(wrong.visit.line, step.well.ref, "filled with it"),
+                    Site(wrong.visit.line, step.well.ref, "filled with it", wrong.visit.index),
                 ),
                 (wrong.visit.line, id(source)),
                 warning=_GUESSED if case.roles.diluent_guessed and is_buffer else "",
             )
 
 
-def _is_diluent_known(case: Case) -> bool:
+def _is_diluent_known(case: RuleContext) -> bool:
     """Whether some reservoir, or some well of a plate that serves several, is the diluent's."""
-    plates = {well.ref.labware for series in case.series.found for well in series.position}
+    plates = {
+        well.ref.labware for series in case.once(SeriesFinder).found for well in series.position
+    }
     served = case.trace.served
     return any(
         (ref.labware not in plates or len(served.get(ref, ())) > 1)
@@ -106,7 +111,7 @@ def _is_diluent_known(case: Case) -> bool:
     )
 
 
-def _is_in_all(case: Case, series: Series, source: Well) -> bool:
+def _is_in_all(case: RuleContext, series: Series, source: Well) -> bool:
     """Whether all wells of a chain are given this, and its head another liquid that it dilutes."""
     linked = set(wells_of(series.links))
     heads = linked - {link.well for link in series.links}
@@ -117,11 +122,15 @@ def _is_in_all(case: Case, series: Series, source: Well) -> bool:
     )
 
 
-def _filled_by_hand(case: Case, series: Series) -> bool:
+def _filled_by_hand(case: RuleContext, series: Series) -> bool:
     """Whether the run fills no series, or most wells of a chain get no diluent, and are drawn from
     as if they held some.
     """
-    if not any(diluent_arrivals(case, well) for one in case.series.found for well in one.position):
+    if not any(
+        diluent_arrivals(case, well)
+        for one in case.once(SeriesFinder).found
+        for well in one.position
+    ):
         return True
     reached = {link.well for link in series.links}
     unfilled = {well for well in reached if not diluent_arrivals(case, well)}
@@ -129,7 +138,7 @@ def _filled_by_hand(case: Case, series: Series) -> bool:
     return 2 * len(unfilled) > len(reached) and 2 * len(unfilled & beyond) > len(unfilled)
 
 
-def _is_undiluted_head(case: Case, series: Series, well: Well) -> bool:
+def _is_undiluted_head(case: RuleContext, series: Series, well: Well) -> bool:
     """Whether this is the first well of the series, and stock went into it while it was empty.
 
     It needs no diluent, and a later transfer into it runs the wrong way, which is SD-2's.
@@ -145,7 +154,7 @@ def _is_undiluted_head(case: Case, series: Series, well: Well) -> bool:
     )
 
 
-def wrong_fill(case: Case, series: Series, step: Transfer) -> Transfer | None:
+def wrong_fill(case: RuleContext, series: Series, step: Transfer) -> Transfer | None:
     """What a well of the series was filled with in the diluent's place, if anything."""
     if diluent_arrivals(case, step.well) or _is_undiluted_head(case, series, step.well):
         return None

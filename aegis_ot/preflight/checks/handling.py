@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from ...instrumentation import LabwareInfo, Operation, OperationKind, wells_under
 from ...vocabulary import Site, WellRef, counted
 from ..trace import Beside
-from .case import Case, at
 from .check import Check, Result, Violation
+from .rule_context import RuleContext, at
 
 _TROUGH_MM = 50.0
 """A well so long stands for a whole column: definitions differ in which nozzle it is aimed at."""
@@ -24,6 +24,11 @@ _PRESSED_MM = 0.5
 
 _FEWEST_ALIKE = 3
 """Where so many statements go below the bottom, the definition's depth is what is wrong."""
+
+_LEFT_OUT = (
+    "Elsewhere it goes two tips a well: if every other tip is left out of the rack, say so in the "
+    "rack's label, 'half loaded'."
+)
 
 _DOES = {
     OperationKind.ASPIRATE: "draws from",
@@ -46,7 +51,7 @@ class TipsOverWells(Check):
     beyond the labware and are to give nothing later are a warning.
     """
 
-    def find(self, case: Case) -> Iterator[Result]:
+    def find(self, case: RuleContext) -> Iterator[Result]:
         found: dict[tuple[object, ...], list[Beside]] = {}
         for one in case.trace.beside:
             step, target = one.step, _target(one.step)
@@ -63,10 +68,20 @@ class TipsOverWells(Check):
             warning = ""
             if _is_harmless(worst[0], case):
                 warning = "They hold nothing, and stand beyond the labware."
+            elif _may_be_left_out(case, together):
+                warning = _LEFT_OUT
             message = _beside(worst[0], case.trace.labware[_target(worst[0].step).labware])
             for target in told:
                 site = Site(worst[0].step.line, target, "not all tips stand over a well")
                 yield Violation(message, (site,), cause, warning=warning)
+
+
+def _may_be_left_out(case: RuleContext, together: Sequence[Beside]) -> bool:
+    """Whether only every other tip strays, of a pipette that goes two tips a well elsewhere."""
+    rows = {_LETTERS.index(nozzle[0]) for one in together for nozzle in one.nozzles}
+    step = together[0].step
+    elsewhere = case.trace.in_pairs.get(step.pipette.key, set())
+    return bool(elsewhere - {_target(step).labware}) and all(row % 2 for row in rows)
 
 
 def _target(step: Operation) -> WellRef:
@@ -94,7 +109,7 @@ def _offsets(step: Operation) -> Mapping[str, tuple[float, float]]:
     return {n: (_PITCH_MM * (c - column), -_PITCH_MM * (r - row)) for n, (r, c) in places.items()}
 
 
-def _is_harmless(one: Beside, case: Case) -> bool:
+def _is_harmless(one: Beside, case: RuleContext) -> bool:
     """Whether these tips hold nothing, owe nothing and meet nothing: beyond the labware."""
     if one.holding or one.missed:
         return False
@@ -154,7 +169,7 @@ class TipAboveBottom(Check):
     several statements, which makes up for a well that is deeper than its definition says.
     """
 
-    def find(self, case: Case) -> Iterator[Result]:
+    def find(self, case: RuleContext) -> Iterator[Result]:
         below: dict[str, dict[int | None, Operation]] = {}
         for step in case.trace.log:
             if isinstance(step, Operation) and _is_below(step):

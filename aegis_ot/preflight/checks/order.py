@@ -10,11 +10,11 @@ from ...vocabulary import Site
 from ..rules import role_names
 from ..source import comparable
 from ..trace import Transfer, Visit, Well
-from .case import Case, RoleSet, at
 from .check import Check, Doubt, Result, Violation
+from .rule_context import RoleSet, RuleContext, at
 
 
-def arrivals(case: Case, well: Well, liquid: RoleSet) -> list[Transfer]:
+def arrivals(case: RuleContext, well: Well, liquid: RoleSet) -> list[Transfer]:
     """What brought a liquid of these roles to a well.
 
     Not with what another well of the assay was given it in: that goes to a reader's plate, say.
@@ -31,7 +31,7 @@ _MANY = 3
 """What one sample's reaction goes on to are fewer wells: a reader's, a gel's."""
 
 
-def _is_reagent(case: Case, source: Well, liquid: RoleSet) -> bool:
+def _is_reagent(case: RuleContext, source: Well, liquid: RoleSet) -> bool:
     """Whether a well holds a reagent that the run makes or takes along, and no sample's reaction:
     many get it, or nothing else is in it.
     """
@@ -57,7 +57,7 @@ class MixedAfter(Check):
 
     liquid: tuple[str, ...] = role_names(required=True)
 
-    def find(self, case: Case) -> Iterator[Result]:
+    def find(self, case: RuleContext) -> Iterator[Result]:
         receivers = list(self._receivers(case))
         by_hand = not any(
             case.destinations.get(well) or case.trace.mixed_since(well, -1, math.inf)
@@ -69,12 +69,12 @@ class MixedAfter(Check):
                 continue
             yield Violation(
                 f"{well.ref} receives {what} {at(last.line)} and is never mixed afterwards.",
-                (Site(last.line, well.ref, f"received {what}, never mixed"),),
-                (last.line, what),
+                (Site(last.line, well.ref, f"received {what}, never mixed", last.index),),
+                (what,) if by_hand else (last.line, what),
                 warning=_BY_HAND if by_hand else "",
             )
 
-    def _receivers(self, case: Case) -> Iterator[tuple[Well, Visit]]:
+    def _receivers(self, case: RuleContext) -> Iterator[tuple[Well, Visit]]:
         """The wells that are judged, each with the visit that brought the last of the liquid."""
         for well in case.trace.wells.values():
             if case.has(well, self.liquid) or well.ref in case.waste:
@@ -98,7 +98,7 @@ class ReceivedBefore(Check):
     first: tuple[str, ...] = role_names(required=True)
     then: tuple[str, ...] = role_names(required=True)
 
-    def find(self, case: Case) -> Iterator[Result]:
+    def find(self, case: RuleContext) -> Iterator[Result]:
         for well in case.trace.wells.values():
             begun = _begun(case, arrivals(case, well, self.then), self.then)
             if begun is None:
@@ -113,14 +113,14 @@ class ReceivedBefore(Check):
                     f"{well.ref} receives {what} {at(begun.line)}, before the "
                     f"{title} that is added {at(line)}.",
                     (
-                        Site(begun.line, well.ref, f"received {what}"),
-                        Site(line, well.ref, f"received {title} after it"),
+                        Site(begun.line, well.ref, f"received {what}", begun.index),
+                        Site(line, well.ref, f"received {title} after it", one.visit.index),
                     ),
                     (begun.line, line),
                 )
 
 
-def _begun(case: Case, came: Sequence[Transfer], liquid: RoleSet) -> Visit | None:
+def _begun(case: RuleContext, came: Sequence[Transfer], liquid: RoleSet) -> Visit | None:
     """When the last of several liquids of these roles first came: of two reagents one develops
     nothing without the other.
     """
@@ -144,7 +144,7 @@ class RisingOrder(Check):
 
     liquid: tuple[str, ...] = role_names(required=True)
 
-    def claims(self, case: Case, origin: Well, well: Well) -> bool | None:
+    def claims(self, case: RuleContext, origin: Well, well: Well) -> bool | None:
         """As one of its liquids in another, or where another is given."""
         held = (well, *case.meant.get(well, ()))
         if case.of(origin) and not case.has(origin, self.liquid):
@@ -153,7 +153,7 @@ class RisingOrder(Check):
             return True if case.of(origin) else None
         return False if all(map(case.of, held)) else None
 
-    def find(self, case: Case) -> Iterator[Result]:
+    def find(self, case: RuleContext) -> Iterator[Result]:
         last: dict[tuple[int, int], Transfer] = {}
         done: set[tuple[int, int, Well]] = set()
         for one in case.trace.transfers:
@@ -180,9 +180,16 @@ class RisingOrder(Check):
                     f"concentrated one from {source.ref} into {one.well.ref} "
                     f"{at(visit.line)}.",
                     (
-                        Site(before.visit.line, before.source.ref, "dispensed the higher one"),
+                        Site(
+                            before.visit.line,
+                            before.source.ref,
+                            "dispensed the higher one",
+                            before.visit.index,
+                        ),
                         Site(one.drawn, source.ref, "drew the lower one"),
-                        Site(visit.line, one.well.ref, "dispensed the lower one after"),
+                        Site(
+                            visit.line, one.well.ref, "dispensed the lower one after", visit.index
+                        ),
                     ),
                     (before.visit.line, visit.line),
                 )

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from ...instrumentation import OperationKind
 from ..trace import Met, Visit, Well
-from .case import Case
+from .rule_context import RuleContext
 
 _RINSES = 2
 """So many times a tip is rinsed to be taken for clean, where nothing amplifies a trace."""
 
 
-def is_given_to_all(case: Case, visit: Visit, origin: Well, met: Met) -> bool:
+def is_given_to_all(case: RuleContext, visit: Visit, origin: Well, met: Met) -> bool:
     """Whether the tip goes back into a stock of which all that is made from now on, at last, is
     given whatever stood in the well that the tip comes from.
     """
@@ -28,7 +28,7 @@ def is_given_to_all(case: Case, visit: Visit, origin: Well, met: Met) -> bool:
     return bool(ends) and told
 
 
-def made_after(case: Case, well: Well, index: int, further: bool) -> set[Well]:
+def made_after(case: RuleContext, well: Well, index: int, further: bool) -> set[Well]:
     """The wells that liquid of ``well`` goes to from now on; ``further``: and on from there."""
     found: set[Well] = set()
     open_ = [well]
@@ -41,16 +41,19 @@ def made_after(case: Case, well: Well, index: int, further: bool) -> set[Well]:
     return found
 
 
-def was_rinsed(case: Case, visit: Visit) -> bool:
-    """Whether a shared liquid was drawn into the tip and given to the waste often enough before."""
-    rinses = 0
-    visits = visit.tip.visits
-    for other in reversed(visits[: visits.index(visit)]):
-        if other.kind is OperationKind.ASPIRATE:
-            if not case.is_one_liquid(other.well):
-                break
-        elif other.well.ref not in case.waste:
+def was_rinsed(case: RuleContext, visit: Visit, origin: Well) -> bool:
+    """Whether, since the tip last met a liquid, a shared one was drawn into it and given to the
+    waste often enough.
+    """
+    rinses, thrown = 0, False
+    for other in reversed(visit.tip.visits) if case.waste else ():
+        if other.index >= visit.index:
+            continue
+        if other.well.ref in case.waste:
+            thrown = thrown or other.kind is OperationKind.DISPENSE
+        elif other.well is origin or origin in case.meant.get(other.well, ()):
             break
-        elif other.kind is OperationKind.DISPENSE:
-            rinses += 1
+        elif other.kind is OperationKind.ASPIRATE:
+            rinses += thrown and case.is_one_liquid(other.well)
+            thrown = False
     return rinses >= _RINSES

@@ -7,9 +7,9 @@ from dataclasses import dataclass, field
 
 from ...instrumentation import Operation, OperationKind
 from ...vocabulary import Site, WellRef
-from .case import Case, at
 from .check import Check, Result, Violation, microlitres
 from .handling import called
+from .rule_context import RuleContext, at
 
 _TOLERATED = 0.5
 """From this share of the least volume on people use a pipette knowingly."""
@@ -49,7 +49,7 @@ class VolumeInRange(Check):
     What goes to the waste, or back to where it came from, need not be exact.
     """
 
-    def find(self, case: Case) -> Iterator[Result]:
+    def find(self, case: RuleContext) -> Iterator[Result]:
         small: dict[str, _Small] = {}
         for mix in _mixes(case):
             step, well = mix.step, mix.step.well
@@ -72,7 +72,7 @@ class VolumeInRange(Check):
 EMPTY = 0.01
 
 
-def _mixes(case: Case) -> Iterator[_Mix]:
+def _mixes(case: RuleContext) -> Iterator[_Mix]:
     """Each mix of the run, with how often it is repeated."""
     on: dict[str, _Mix] = {}
     for step in case.trace.log:
@@ -90,7 +90,7 @@ def _mixes(case: Case) -> Iterator[_Mix]:
     yield from on.values()
 
 
-def _delivered(case: Case) -> Iterator[tuple[Operation, float, WellRef]]:
+def _delivered(case: RuleContext) -> Iterator[tuple[Operation, float, WellRef]]:
     """Measured volumes that matter: drawn for a delivery, or delivered."""
     for load in case.loads:
         given = [

@@ -9,14 +9,14 @@ from ...vocabulary import Site, WellRef
 from ..evidence import Kind
 from ..rules import role_names
 from ..trace import EMPTY_UL, Transfer, Usage, Well
-from .case import Case, RoleSet, at
 from .check import Check, Doubt, Result, Violation, microlitres
+from .rule_context import RoleSet, RuleContext, at
 
 _MOST_TUBES = 24
 """Labware of no more wells is a rack or a reservoir, in which various things stand."""
 
 
-def received(case: Case, well: Well, liquid: RoleSet) -> tuple[float, int | None]:
+def received(case: RuleContext, well: Well, liquid: RoleSet) -> tuple[float, int | None]:
     """µL of a liquid that a well receives in the run, and the line that first brought it."""
     total, line = 0.0, None
     for one in well.received:
@@ -35,7 +35,7 @@ def filled(well: Well) -> tuple[float, int | None]:
     return sum(one.volume for one in well.received), line
 
 
-def came_from(case: Case, well: Well, liquid: RoleSet) -> set[Well]:
+def came_from(case: RuleContext, well: Well, liquid: RoleSet) -> set[Well]:
     """The wells that a liquid came into this one from.
 
     Those that it stood in to begin with; where the run makes it, those of what it is made of.
@@ -47,7 +47,7 @@ def came_from(case: Case, well: Well, liquid: RoleSet) -> set[Well]:
     return {part for made in made_in for part in case.meant.get(made, {made: 0})}
 
 
-def is_made_of(case: Case, well: Well, wells: RoleSet) -> bool:
+def is_made_of(case: RuleContext, well: Well, wells: RoleSet) -> bool:
     """Whether a well is filled from such wells alone, or from what they were cleaned up in: a later
     stage, a gel.
     """
@@ -58,7 +58,7 @@ def is_made_of(case: Case, well: Well, wells: RoleSet) -> bool:
     return bool(well.received) and all(passes_on(one.source) for one in well.received)
 
 
-def _unknown_source(case: Case, well: Well, served: set[WellRef]) -> Well | None:
+def _unknown_source(case: RuleContext, well: Well, served: set[WellRef]) -> Well | None:
     """A source without a role that serves this well and others that lack the liquid too.
 
     It may well hold what is missing.
@@ -69,7 +69,7 @@ def _unknown_source(case: Case, well: Well, served: set[WellRef]) -> Well | None
     return None
 
 
-def _last_line(case: Case, well: Well) -> int | None:
+def _last_line(case: RuleContext, well: Well) -> int | None:
     """The line that last brought something to the labware of a well that nothing ever enters."""
     lines = [
         one.visit.line for one in case.trace.transfers if one.well.ref.labware == well.ref.labware
@@ -78,7 +78,7 @@ def _last_line(case: Case, well: Well) -> int | None:
 
 
 def _never_received(
-    case: Case, well: Well, title: str, given: tuple[int | None, Well, Well] | None
+    case: RuleContext, well: Well, title: str, given: tuple[int | None, Well, Well] | None
 ) -> Violation:
     """A well without a liquid that others are ``given``: at which line, whence, what it was."""
     total, line = filled(well)
@@ -111,10 +111,10 @@ class Receives(Check):
     liquid: tuple[str, ...] = role_names(required=True)
     always: tuple[str, ...] = role_names()
 
-    def demanded(self, case: Case) -> Collection[str]:
+    def demanded(self, case: RuleContext) -> Collection[str]:
         return self.liquid
 
-    def find(self, case: Case) -> Iterator[Result]:
+    def find(self, case: RuleContext) -> Iterator[Result]:
         liquid = self.liquid
         served = {
             well.ref
@@ -122,6 +122,9 @@ class Receives(Check):
             if received(case, well, liquid)[0] > 0 or case.has(well, liquid)
         }
         plates, judged = self._plates(case), list(self._judged(case))
+        if not plates and (why := case.left_out(None, liquid)):
+            yield Doubt(f"no well receives {case.titles(liquid)}: {why}")
+            return
         if not plates and self._stands_unused(case):
             plates = {ref.labware for ref, used in case.trace.usage.items() if used.received}
             judged = [well for well in judged if case.has(well, self.always)]
@@ -153,13 +156,15 @@ class Receives(Check):
             reported.add(well.ref)
             yield _never_received(case, well, title, given[0] if given else None)
 
-    def _why_not_judged(self, case: Case, well: Well, served: set[WellRef]) -> str:
+    def _why_not_judged(self, case: RuleContext, well: Well, served: set[WellRef]) -> str:
         """Why nobody can say whether a well that lacks the liquid should have it, or ``""``."""
         if unknown := _unknown_source(case, well, served):
             return (
                 f"{well.ref} receives something from {unknown.ref}, and nothing says "
                 "what stands there"
             )
+        if why := case.left_out(well, self.liquid):
+            return f"{well.ref} receives no {case.titles(self.liquid)}: {why}"
         if self._held_more(case, well):
             return f"more is drawn from {well.ref} than the run puts there: it held more before"
         if is_made_of(case, well, self.wells):
@@ -168,7 +173,7 @@ class Receives(Check):
             return f"nothing but its plate's name says what {well.ref} is for"
         return ""
 
-    def _held_more(self, case: Case, well: Well) -> bool:
+    def _held_more(self, case: RuleContext, well: Well) -> bool:
         """Whether a well that is no control, and gets nothing of its own, is drawn from as if it
         had held something: product in a clean-up. What is missing where a sample comes is the mix.
         """
@@ -182,7 +187,7 @@ class Receives(Check):
             and all(case.is_one_liquid(one.source) for one in well.received)
         )
 
-    def _plates(self, case: Case) -> set[str]:
+    def _plates(self, case: RuleContext) -> set[str]:
         """Labware where some well is given the liquid, and their replicates.
 
         A well that is given what stood in such a well before, liquid and all, is another stage.
@@ -194,7 +199,7 @@ class Receives(Check):
             or (case.brings(one, self.liquid) and not case.has(one.source, self.wells))
         }
 
-    def _stands_unused(self, case: Case) -> bool:
+    def _stands_unused(self, case: RuleContext) -> bool:
         """Whether a well of its own is named for the liquid: then nobody adds it by hand."""
         return any(
             assigned.kind >= Kind.NAME
@@ -203,7 +208,7 @@ class Receives(Check):
             for ref, assigned in case.roles.by_well.items()
         )
 
-    def _judged(self, case: Case) -> Iterator[Well]:
+    def _judged(self, case: RuleContext) -> Iterator[Well]:
         for well in case.trace.wells.values():
             if not case.has(well, self.wells) or self._is_circular(case, well):
                 continue
@@ -218,7 +223,7 @@ class Receives(Check):
             if ref not in visited and case.roles.has(ref, self.always):
                 yield Well(ref)
 
-    def _is_circular(self, case: Case, well: Well) -> bool:
+    def _is_circular(self, case: RuleContext, well: Well) -> bool:
         """Whether only the liquid in question tells what the well is: its control's tube."""
         if well.ref not in case.roles.followed:
             return False
@@ -243,7 +248,7 @@ class NeverReceives(Check):
     wells: tuple[str, ...] = role_names(required=True)
     liquid: tuple[str, ...] = role_names(required=True)
 
-    def find(self, case: Case) -> Iterator[Result]:
+    def find(self, case: RuleContext) -> Iterator[Result]:
         for well in case.wells(self.wells):
             seen: set[Well] = set()
             for one in well.received:
@@ -269,7 +274,7 @@ class NeverReceives(Check):
                         else:
                             yield _given(case, one, origin)
 
-    def _is_named_loosely(self, case: Case, origin: Well) -> bool:
+    def _is_named_loosely(self, case: RuleContext, origin: Well) -> bool:
         """Whether a loop or a rack names one that only such wells get: their water, the dose 0.
 
         Of a plate that is stamped each well serves one: that says nothing.
@@ -281,7 +286,7 @@ class NeverReceives(Check):
             return False
         return all(case.has(well, self.wells) for well in case.destinations.get(origin, ()))
 
-    def _may_be(self, case: Case, source: Well, well: Well) -> bool:
+    def _may_be(self, case: RuleContext, source: Well, well: Well) -> bool:
         """Whether some other wells of a plate, but not most, get a source and no ``liquid``."""
         others = {
             other: origins
@@ -293,7 +298,7 @@ class NeverReceives(Check):
         return in_its_place and 2 * len(served) < len(others)
 
 
-def _given(case: Case, one: Transfer, origin: Well) -> Violation:
+def _given(case: RuleContext, one: Transfer, origin: Well) -> Violation:
     """A measured volume of a liquid in a well that must not have it."""
     what, title = case.title(origin), case.title(one.well)
     line = one.visit.line
@@ -302,7 +307,7 @@ def _given(case: Case, one: Transfer, origin: Well) -> Violation:
         f"are dispensed into the {title} {one.well.ref} {at(line)}.",
         (
             Site(one.drawn, one.source.ref, f"drew {what}"),
-            Site(line, one.well.ref, f"gave it to the {title}"),
+            Site(line, one.well.ref, f"gave it to the {title}", one.visit.index),
         ),
         (line, one.drawn, what, title),
         (origin, one.well),

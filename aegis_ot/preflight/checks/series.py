@@ -10,12 +10,9 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import TYPE_CHECKING
 
 from ..trace import Transfer, Visit, Well, chains_of
-
-if TYPE_CHECKING:
-    from .case import Case
+from .rule_context import RuleContext
 
 _SHORTEST = 2
 _MANY = 3
@@ -52,7 +49,7 @@ class SeriesFinder:
         fillers: Wells that a whole series is filled from, whatever they are called.
     """
 
-    def __init__(self, case: Case) -> None:
+    def __init__(self, case: RuleContext) -> None:
         self._case = case
         self._has = case.has
         self._stock, self._diluent = case.family.series.stock, case.family.series.diluent

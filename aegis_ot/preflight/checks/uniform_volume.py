@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from ...vocabulary import Site
 from ..rules import role_names
 from ..trace import Well
-from .case import Case, at
 from .check import Check, Result, Violation, microlitres
 from .receiving import came_from, filled, is_made_of, received
+from .rule_context import RuleContext, at
 
 Member = tuple[Well, float, float]
 """A well, the µL of the liquid that it received, and those that it received in all."""
@@ -37,7 +37,7 @@ class UniformVolume(Check):
     wells: tuple[str, ...] = role_names(required=True)
     liquid: tuple[str, ...] = role_names(required=True)
 
-    def find(self, case: Case) -> Iterator[Result]:
+    def find(self, case: RuleContext) -> Iterator[Result]:
         groups: dict[tuple[str, ...], list[Member]] = {}
         for well in case.wells(self.wells):
             if well.prefilled or case.is_drawn_first(well):
@@ -51,14 +51,14 @@ class UniformVolume(Check):
         for members in groups.values():
             yield from self._compare(case, members)
 
-    def _is_shared_out(self, case: Case, well: Well) -> bool:
+    def _is_shared_out(self, case: RuleContext, well: Well) -> bool:
         """Whether it got more on purpose: other such wells beside it are filled from it."""
         return any(
             other.ref.labware == well.ref.labware and case.has(other, self.wells)
             for other in case.destinations.get(well, {})
         )
 
-    def _assay(self, case: Case, well: Well) -> tuple[str, ...]:
+    def _assay(self, case: RuleContext, well: Well) -> tuple[str, ...]:
         names = set()
         for tube in came_from(case, well, self.liquid):
             assigned = case.roles.by_well.get(tube.ref)
@@ -66,7 +66,7 @@ class UniformVolume(Check):
             names.add(kind or tube.ref.address)
         return (well.ref.labware, str(well.generation), *sorted(names))
 
-    def _compare(self, case: Case, members: list[Member]) -> Iterator[Result]:
+    def _compare(self, case: RuleContext, members: list[Member]) -> Iterator[Result]:
         title = case.titles(self.liquid)
         usual_got = _usual([got for _, got, _ in members])
         usual_total = _usual([total for _, _, total in members])

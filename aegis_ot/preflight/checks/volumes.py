@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from ...instrumentation import OperationKind
 from ...vocabulary import Site
 from ..trace import Imbalance, Visit, Well
-from .case import Case, at
 from .check import Check, Doubt, Result, Violation, microlitres
+from .rule_context import RuleContext, at
 
 _FEWEST_ALIKE = 3
 _FAR_SHORT = 2.0
@@ -39,7 +39,7 @@ class VolumeBookkeeping(Check):
 
     lasting = True
 
-    def find(self, case: Case) -> Iterator[Result]:
+    def find(self, case: RuleContext) -> Iterator[Result]:
         """Report each kind of imbalance once in each well: the first that is sure, or the first."""
         by_hand = {
             one.visit.well.ref.labware
@@ -54,6 +54,10 @@ class VolumeBookkeeping(Check):
                 continue
             if well.runs_through:
                 continue  # what runs through is not there to overflow, or to be drawn
+            if why := case.left_out(well):
+                does = "is filled to" if one.overfilled else "is drawn from by"
+                yield Doubt(f"{well.ref} {does} {microlitres(one.volume)}, and {why}")
+                continue
             if not one.overfilled and well.declared is None:
                 if (
                     well.ref in case.unsure
@@ -77,7 +81,7 @@ class VolumeBookkeeping(Check):
             yield _violation(first, warning, max(one.volume for one in later))
 
 
-def _all_short(case: Case) -> set[str]:
+def _all_short(case: RuleContext) -> set[str]:
     """Labware of which all wells that the run draws from hold too little: they held more before."""
     drawn: dict[str, set[Well]] = {}
     for visit in case.trace.visits:
@@ -95,7 +99,7 @@ def _is_far_short(well: Well) -> bool:
     return given * _FAR_SHORT <= drawn
 
 
-def _why_practice(case: Case, imbalance: Imbalance) -> str:
+def _why_practice(case: RuleContext, imbalance: Imbalance) -> str:
     """Why an imbalance is a warning, in a sentence; empty for an error."""
     visit, well = imbalance.visit, imbalance.visit.well
     if imbalance.overfilled:
@@ -126,7 +130,7 @@ def _why_practice(case: Case, imbalance: Imbalance) -> str:
     return ""
 
 
-def goes_to_waste(case: Case, visit: Visit) -> bool:
+def goes_to_waste(case: RuleContext, visit: Visit) -> bool:
     """Whether nothing of what is drawn comes into a well that matters."""
     fed = {
         given.well
@@ -137,7 +141,7 @@ def goes_to_waste(case: Case, visit: Visit) -> bool:
     return all(case.is_waste(one) for one in fed)
 
 
-def _is_filled_again(case: Case, visit: Visit) -> bool:
+def _is_filled_again(case: RuleContext, visit: Visit) -> bool:
     """Whether a well gets one liquid more often than most wells beside it, and keeps it."""
     times = case.fillings
     for source in {one.source for one in visit.brought}:
@@ -157,7 +161,7 @@ def _violation(imbalance: Imbalance, warning: str, most: float) -> Violation:
     if imbalance.overfilled:
         later = f", and to {microlitres(most)} later" if microlitres(most) != volume else ""
         message = f"{well.ref} is filled to {volume} {at(visit.line)}{later}; it holds {limit}."
-        sites = [Site(visit.line, well.ref, f"filled to {volume}")]
+        sites = [Site(visit.line, well.ref, f"filled to {volume}", visit.index)]
     else:
         holds = f"which holds {limit} then"
         if well.declared:
@@ -165,10 +169,10 @@ def _violation(imbalance: Imbalance, warning: str, most: float) -> Violation:
             if any(one.brought for one in well.visits if one.index < visit.index):
                 holds = f"which holds {limit} then, its declared volume included"
         message = f"{volume} are drawn from {well.ref} {at(visit.line)}, {holds}."
-        sites = [Site(visit.line, well.ref, f"drew {volume} of {limit}")]
-    lines = [v.line for v in well.visits if v.index < visit.index and v.brought]
-    if lines and lines[-1] != visit.line:
-        sites.insert(0, Site(lines[-1], well.ref, "last filled here"))
+        sites = [Site(visit.line, well.ref, f"drew {volume} of {limit}", visit.index)]
+    fills = [one for one in well.visits if one.index < visit.index and one.brought]
+    if fills and fills[-1].line != visit.line:
+        sites.insert(0, Site(fills[-1].line, well.ref, "last filled here", fills[-1].index))
     cause = (visit.line, imbalance.overfilled)
     told_by = "" if imbalance.overfilled else STOCK_SUFFICES
     return Violation(message, tuple(sites), cause, warning=warning, told_by=told_by)

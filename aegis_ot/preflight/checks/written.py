@@ -6,12 +6,12 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import pairwise
 
-from ...instrumentation import Operation, OperationKind
-from ...vocabulary import Site, WellRef
+from ...instrumentation import Event, EventKind, Operation, OperationKind
+from ...vocabulary import Site, WellRef, counted
 from ..trace import Given, Load, Visit, Well
-from .case import Case, at
 from .check import Check, Result, Violation, microlitres
 from .handling import called
+from .rule_context import RuleContext, at
 
 _SMALL = 0.05
 """A share of what is written that may be missing with no more than a warning."""
@@ -26,16 +26,19 @@ class WrittenIsMoved(Check):
     """What is written is what moves.
 
     0 µL that older apiLevels take for a full tip, or for all that is in it; a dispense of more
-    than the tip holds; an air gap that leaves first, or is drawn from the liquid.
+    than the tip holds; an air gap that leaves first, or is drawn from the liquid; a ``distribute``
+    that ends before its last well.
     """
 
-    def find(self, case: Case) -> Iterator[Result]:
+    def find(self, case: RuleContext) -> Iterator[Result]:
         # What is sure comes first, and so speaks for all of one cause.
         yield from sorted(self._found(case), key=lambda violation: bool(violation.warning))
 
-    def _found(self, case: Case) -> Iterator[Violation]:
+    def _found(self, case: RuleContext) -> Iterator[Violation]:
         for step in case.trace.log:
-            if isinstance(step, Operation) and step.mixing and step.written == 0:
+            if isinstance(step, Event):
+                yield from _cut_short(step) if step.kind is EventKind.CUT_SHORT else ()
+            elif step.mixing and step.written == 0:
                 yield from _full_mix(step)
         for load in case.loads:
             found = _drawn_full(case, load)
@@ -54,13 +57,27 @@ def _full_mix(step: Operation) -> Iterator[Violation]:
         yield _violation(told, step, step.well, "mix", "It goes back where it came from.")
 
 
-def _matters(case: Case, one: Given, load: Load) -> bool:
+def _cut_short(event: Event) -> Iterator[Violation]:
+    """A call that ended in silence, with the wells that it never came to."""
+    done = "get anything" if event.text == "distribute" else "give anything"
+    told = (
+        f"{event.text} {at(event.line)} ends without a word before {event.wells[0]}: "
+        f"{microlitres(event.volume or 0.0)}, with the disposal volume and the air gap, have no "
+        f"room in the tip. So {counted(len(event.wells), 'well')} of it never {done}: "
+        f"lower disposal_volume, or use transfer."
+    )
+    for ref in event.wells:
+        site = Site(event.line, ref, "never reached")
+        yield Violation(told, (site,), ("short", event.line))
+
+
+def _matters(case: RuleContext, one: Given, load: Load) -> bool:
     """Whether liquid reaches a well that is neither waste nor where it came from."""
     well = one.well
     return well is not None and well not in load.sources and not case.is_waste(well)
 
 
-def _drawn_full(case: Case, load: Load) -> list[Violation]:
+def _drawn_full(case: RuleContext, load: Load) -> list[Violation]:
     found = []
     for visit in load.drawn:
         step = visit.step
@@ -81,7 +98,7 @@ def _drawn_full(case: Case, load: Load) -> list[Violation]:
     return found
 
 
-def _given_otherwise(case: Case, load: Load) -> Iterator[Violation]:
+def _given_otherwise(case: RuleContext, load: Load) -> Iterator[Violation]:
     last: Well | None = None
     others: set[Well] = set()
     for one in load.given:
@@ -130,7 +147,7 @@ def _before(visit: Visit) -> Well | None:
     return earlier[-1] if earlier else None
 
 
-def _short_by_the_gap(case: Case, load: Load) -> Iterator[Violation]:
+def _short_by_the_gap(case: RuleContext, load: Load) -> Iterator[Violation]:
     """An air gap leaves first; where as much liquid stays in the tip, it was forgotten."""
     given = [one for one in load.given if _matters(case, one, load)]
     air = sum(one.air for one in given if one.liquid > 0)
@@ -152,7 +169,7 @@ def _short_by_the_gap(case: Case, load: Load) -> Iterator[Violation]:
     yield _violation(told, first.step, first.well.ref, "gap", why)
 
 
-def _taken_along(case: Case, before: Load, load: Load) -> Iterator[Violation]:
+def _taken_along(case: RuleContext, before: Load, load: Load) -> Iterator[Violation]:
     """A tip that goes to the waste with some of what it has just given."""
     if (before.pipette, before.session) != (load.pipette, load.session) or load.parked:
         return

@@ -11,7 +11,7 @@ from ...instrumentation import NameBinding
 from ..rules import Common
 from ..source import SourceFacts
 from ..trace import Trace
-from .deck import Deck
+from .deck import DeckNames
 from .evidence import DOUBTFUL, Evidence, Kind
 from .labels import given_roles, labels, loaded_liquids, unknown_places
 from .names import fields_of_rows, named_wells
@@ -19,7 +19,7 @@ from .plate_maps import plate_maps
 from .well_names import wells_in
 from .written_wells import written_wells
 
-__all__ = ["DOUBTFUL", "Deck", "Evidence", "Kind", "gather", "unknown_places", "wells_in"]
+__all__ = ["DOUBTFUL", "DeckNames", "Evidence", "Kind", "gather", "unknown_places", "wells_in"]
 
 
 def gather(
@@ -34,7 +34,7 @@ def gather(
     The trace is a first reading of the run, to know labware, liquids and used wells; ``given`` are
     roles given outright: role to places (``"4:H12"``, ``"PCR plate:A1-A8"``).
     """
-    deck = Deck(trace, names)
+    deck = DeckNames(trace, names)
     found = [
         *given_roles(deck, given, common.levels),
         *loaded_liquids(deck),

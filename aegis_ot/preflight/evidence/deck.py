@@ -15,7 +15,7 @@ _LEFT_OUT = 2
 """As many wells of those that a name holds may have been left out by mistake."""
 
 
-class Deck:
+class DeckNames:
     """What stands on the deck, under all its names.
 
     Attributes:

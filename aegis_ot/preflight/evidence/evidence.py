@@ -46,6 +46,7 @@ class Evidence:
         whole: Whether it speaks of a whole labware rather than of chosen wells.
         role: The role itself, where it was given outright.
         levels: Concentration or dose of each of its wells, where it gives them one by one.
+        variable: Whether it is no more than what a variable is called.
     """
 
     kind: Kind
@@ -55,6 +56,7 @@ class Evidence:
     whole: bool = False
     role: str = ""
     levels: tuple[float | None, ...] = ()
+    variable: bool = False
 
     @property
     def is_name(self) -> bool:

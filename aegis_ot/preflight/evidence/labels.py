@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from ...vocabulary import WellRef, nearest, one_line
 from ..source import level_of, tokens
-from .deck import Deck, parts_of_place
+from .deck import DeckNames, parts_of_place
 from .evidence import LONGEST_QUOTE, Evidence, Kind
 from .well_names import WELL, not_wells_in
 from .written_wells import entries_of
@@ -18,7 +18,7 @@ _SHORT = 4
 
 
 def given_roles(
-    deck: Deck, given: Mapping[str, Sequence[str]], words: Mapping[str, float]
+    deck: DeckNames, given: Mapping[str, Sequence[str]], words: Mapping[str, float]
 ) -> Iterator[Evidence]:
     """The guard's own arguments: ``roles={"ntc": ["PCR plate:H12"]}``, with a concentration or
     dose where a rule needs one: ``{"standard": ["4:A1 = 2 mg/mL", "4:B1 = 1 mg/mL"]}``.
@@ -35,7 +35,7 @@ def given_roles(
 
 
 def unknown_places(
-    deck: Deck, given: Mapping[str, Sequence[str]], words: Mapping[str, float]
+    deck: DeckNames, given: Mapping[str, Sequence[str]], words: Mapping[str, float]
 ) -> Iterator[tuple[str, bool]]:
     """What is wrong with places that were given, and whether it is so whatever else is loaded."""
     for role, listed in given.items():
@@ -56,7 +56,7 @@ def unknown_places(
                 yield f"{told}'{left[0]}' is no well of that labware{near}.", True
 
 
-def loaded_liquids(deck: Deck) -> Iterator[Evidence]:
+def loaded_liquids(deck: DeckNames) -> Iterator[Evidence]:
     """The names and descriptions of the liquids that were loaded into wells."""
     by_name: dict[str, list[WellRef]] = {}
     for well in deck.trace.wells.values():
@@ -70,7 +70,7 @@ def loaded_liquids(deck: Deck) -> Iterator[Evidence]:
             yield Evidence(Kind.DESCRIPTION, description, tuple(wells), said)
 
 
-def labels(deck: Deck) -> Iterator[Evidence]:
+def labels(deck: DeckNames) -> Iterator[Evidence]:
     """What labware is called: "Compound source"; of single wells, where that is all it says."""
     for info in deck.plates():
         if not info.label:

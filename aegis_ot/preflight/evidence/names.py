@@ -10,23 +10,25 @@ from ...instrumentation import NameBinding
 from ...vocabulary import WellRef
 from ..rules import Common
 from ..source import SourceFacts, level_in, lexicon_of, tokens
-from .deck import Deck
+from .deck import DeckNames
 from .evidence import Evidence, Kind
 
 NUMBERED = re.compile(r"(.*)\[(?P<quote>['\"]?)(-?\d+(?:\.\d+)?)(?P=quote)\](.*)")
 
 
 def named_wells(
-    deck: Deck, names: Sequence[NameBinding], facts: SourceFacts, common: Common
+    deck: DeckNames, names: Sequence[NameBinding], facts: SourceFacts, common: Common
 ) -> Iterator[Evidence]:
     """What variables, keys and attributes were called that held wells or whole labware."""
     keyed, listed = levels_of_keys(names), _lists_of_levels(names, common)
+    held = [set(one.wells) for one in names]
     bound = Counter((one.function, one.name) for one in names if one.wells)
     for binding in names:
         if not (binding.wells or binding.labware):
             continue
         place = (binding.function, base_of(binding))
-        if place in facts.varying and _is_one_of_many(binding, names):
+        mine = set(binding.wells)
+        if place in facts.varying and any(mine < other for other in held):
             continue  # the list that it runs over says as much of all its wells
         line = line_of(binding, facts)
         wells = deck.meant(binding.wells) or deck.used_wells(binding.labware)
@@ -47,6 +49,7 @@ def named_wells(
             f"name `{binding.name}` at line {line}",
             whole=not binding.wells,
             levels=levels,
+            variable=True,
         )
 
 
@@ -77,12 +80,6 @@ def fields_of_rows(names: Sequence[NameBinding], facts: SourceFacts) -> Iterator
         for column, wells in held.items():
             citation = f"field `{column}` of `{binding.name}` at line {line}"
             yield Evidence(Kind.NAME, f"{base}.{column}", tuple(wells), citation)
-
-
-def _is_one_of_many(binding: NameBinding, names: Sequence[NameBinding]) -> bool:
-    """Whether another name holds all these wells, and more."""
-    wells = set(binding.wells)
-    return any(wells < set(other.wells) for other in names if other is not binding)
 
 
 def levels_of_keys(names: Sequence[NameBinding]) -> dict[str, float | None]:

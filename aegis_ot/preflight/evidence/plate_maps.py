@@ -8,17 +8,17 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 
-from ...instrumentation import NameBinding, Row, is_spot
+from ...instrumentation import NameBinding, PlateMapRow, is_spot
 from ...vocabulary import WellRef
 from ..rules import Common
 from ..source import Index, SourceFacts, level_in, lexicon_of
-from .deck import Deck
+from .deck import DeckNames
 from .evidence import Evidence, Kind
 from .names import NUMBERED, base_of, levels_of_keys, line_of
 
 
 def plate_maps(
-    deck: Deck, names: Sequence[NameBinding], facts: SourceFacts, common: Common
+    deck: DeckNames, names: Sequence[NameBinding], facts: SourceFacts, common: Common
 ) -> Iterator[Evidence]:
     """What maps and lists of well names, and rows beside wells, say of these wells."""
     keyed = levels_of_keys(names)
@@ -53,7 +53,7 @@ def plate_maps(
 
 
 def _indexed(
-    deck: Deck, facts: SourceFacts, uses: Iterable[Index], spots: Sequence[str]
+    deck: DeckNames, facts: SourceFacts, uses: Iterable[Index], spots: Sequence[str]
 ) -> tuple[WellRef, ...]:
     """The wells of these names in the labware that the run indexes there. Where several labware
     are indexed with them, those in which all are used: ``("D6", "H12")`` may be a tube and a well.
@@ -70,7 +70,7 @@ def _indexed(
 
 
 def _wells_of_row(
-    deck: Deck, facts: SourceFacts, row: Row, uses: Sequence[Index]
+    deck: DeckNames, facts: SourceFacts, row: PlateMapRow, uses: Sequence[Index]
 ) -> tuple[WellRef, ...]:
     """The wells that a row names. Where it names a tube and a well, each column's own labware."""
     found: list[WellRef] = []
@@ -85,7 +85,7 @@ def _wells_of_row(
 
 
 def _of_row(
-    name: str, row: Row, wells: tuple[WellRef, ...], line: int, common: Common
+    name: str, row: PlateMapRow, wells: tuple[WellRef, ...], line: int, common: Common
 ) -> Iterator[Evidence]:
     amounts = lexicon_of({"amount": common.amounts})
     of_amounts = bool(amounts.find(name))

@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from ...instrumentation import LabwareInfo
 from ...vocabulary import one_line
 from ..source import SourceFacts
-from .deck import Deck
+from .deck import DeckNames
 from .evidence import LONGEST_QUOTE, Evidence, Kind
 from .well_names import PLACES, wells_in
 
@@ -30,7 +30,7 @@ Entry = tuple[list[str], str]
 """Names of wells, and what is said of them."""
 
 
-def written_wells(deck: Deck, facts: SourceFacts) -> Iterator[Evidence]:
+def written_wells(deck: DeckNames, facts: SourceFacts) -> Iterator[Evidence]:
     """The blocks that read so, with what they say of each well."""
     for line, text in (*facts.comment_blocks(), *facts.docstrings):
         head = _HEAD.match(text) if len(text) <= _LONGEST else None

@@ -6,11 +6,11 @@ import json
 from collections.abc import Collection, Iterable, Mapping, Sequence
 
 from ...vocabulary import Undecided, WellRef
-from ..checks import Case, Doubt
+from ..checks import Doubt, RuleContext
 from ..roles import Roles
 from ..rules import RuleSpec
 from ..trace import places
-from .reading import Reading
+from .interpretation import Interpretation
 
 UNKNOWN_ASSAY = Doubt("the assay is not known")
 """What is open in a family that is no more than a guess."""
@@ -26,7 +26,7 @@ def missing_needs(rule: RuleSpec, roles: Roles) -> list[str]:
     return [need for need in rule.needs if not any(map(roles.known, need.split("|")))]
 
 
-def missing_roles(rule: RuleSpec, case: Case, needs: Sequence[str]) -> Undecided:
+def missing_roles(rule: RuleSpec, case: RuleContext, needs: Sequence[str]) -> Undecided:
     """A rule that ``needs`` roles which no well is known for, with the roles to be given."""
     names = [case.titles(need.split("|")) for need in needs]
     reason = f"nothing says which well is the {' and which the '.join(names)}"
@@ -35,7 +35,7 @@ def missing_roles(rule: RuleSpec, case: Case, needs: Sequence[str]) -> Undecided
     return Undecided(rule.id, reason, offered, RIGHT_WELLS)
 
 
-def undecided_by(doubt: Doubt, rule: RuleSpec, case: Case) -> Undecided:
+def undecided_by(doubt: Doubt, rule: RuleSpec, case: RuleContext) -> Undecided:
     """What a check could not judge, with the roles or levels that would decide it."""
     if doubt is UNKNOWN_ASSAY:
         guess = f'@guard(assay="{case.family.family}")'
@@ -64,14 +64,14 @@ def pasted(roles: Mapping[str, Collection[str]]) -> str:
     return f"@guard(roles={json.dumps(told, ensure_ascii=False)})" if told else ""
 
 
-def unnamed_wells(reading: Reading) -> tuple[WellRef, ...]:
+def unnamed_wells(reading: Interpretation) -> tuple[WellRef, ...]:
     """Wells that the run uses and of which nothing says what they hold, in order."""
     roles = reading.roles[0] if reading.roles else None
     found = (well.ref for well in reading.trace.wells.values() if well.visits)
     return tuple(dict.fromkeys(ref for ref in found if roles is None or ref not in roles.by_well))
 
 
-def _offered(role: str, case: Case) -> list[str]:
+def _offered(role: str, case: RuleContext) -> list[str]:
     """Wells on the role's side of which nothing is known, as a guard takes them: to be cut down to
     the right ones. Where there are none, some well is called what it is not: that is no line to
     paste.

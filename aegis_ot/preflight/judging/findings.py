@@ -6,18 +6,19 @@ from collections.abc import Mapping, Sequence
 
 from ...vocabulary import Finding, Severity, WellRef
 from ..checks import Violation
-from ..rules import Database, RuleSpec
+from ..rule_set import RuleSet
+from ..rules import RuleSpec
 from .options import Options
 
 
 def findings_of(
-    violations: Mapping[str, Sequence[Violation]], database: Database, options: Options
+    violations: Mapping[str, Sequence[Violation]], rule_set: RuleSet, options: Options
 ) -> list[Finding]:
     """The findings on one protocol, in the order of its lines; ``violations`` by rule."""
     wells = {rule: {one.well for one in found} for rule, found in violations.items()}
     findings: list[Finding] = []
     for name, found in violations.items():
-        _, rule = database.rule(name)
+        _, rule = rule_set.rule(name)
         # A more telling rule reports these already.
         replaced = set().union(*(wells.get(other, ()) for other in rule.unless_reported))
         left = [
@@ -33,23 +34,20 @@ def _by_cause(violations: Sequence[Violation]) -> list[list[Violation]]:
     """Violations of one cause together, and those that one tip makes in the same way: the count
     grows with the tips, and not with all the wells that each has been in.
     """
-    group_of: dict[object, list[Violation]] = {}
-    groups: dict[int, list[Violation]] = {}
-    for violation in violations:
-        keys = [violation.cause, *([violation.tip] if violation.tip else [])]
-        known = {id(group_of[key]): group_of[key] for key in keys if key in group_of}
-        joined = [one for group in known.values() for one in group]
-        for group in known.values():
-            groups.pop(id(group), None)
-        joined.append(violation)
-        groups[id(joined)] = joined
-        for one in joined:
-            group_of[one.cause] = joined
-            if one.tip:
-                group_of[one.tip] = joined
-    order = {id(violation): at for at, violation in enumerate(violations)}
-    found = [sorted(group, key=lambda one: order[id(one)]) for group in groups.values()]
-    return sorted(found, key=lambda group: order[id(group[0])])
+    joined: dict[object, object] = {}
+
+    def first(key: object) -> object:
+        while (other := joined.setdefault(key, key)) != key:
+            key = other
+        return key
+
+    for one in violations:
+        if one.tip:
+            joined[first(one.tip)] = first(one.cause)
+    groups: dict[object, list[Violation]] = {}
+    for one in violations:
+        groups.setdefault(first(one.cause), []).append(one)
+    return list(groups.values())
 
 
 def _joined(group: Sequence[Violation], rule: RuleSpec, options: Options) -> Finding:

@@ -8,7 +8,8 @@ from dataclasses import dataclass, field
 from ...errors import ConfigurationError
 from ...settings import Settings
 from ...vocabulary import nearest
-from ..rules import Database, RuleSpec
+from ..rule_set import RuleSet
+from ..rules import RuleSpec
 
 
 @dataclass(frozen=True)
@@ -48,12 +49,12 @@ class Options:
             return "off"
         return self.severity.get(rule.id, rule.severity)
 
-    def leave_none(self, database: Database) -> bool:
+    def leave_none(self, rule_set: RuleSet) -> bool:
         """Whether no rule is left to judge by."""
-        return all(self.severity_of(rule) == "off" for rule in database.rules)
+        return all(self.severity_of(rule) == "off" for rule in rule_set.rules)
 
 
-def check_options(options: Options, database: Database) -> None:
+def check_options(options: Options, rule_set: RuleSet) -> None:
     """Refuse options that name what does not exist.
 
     Raises:
@@ -61,9 +62,9 @@ def check_options(options: Options, database: Database) -> None:
         RuleError: A family is unknown.
     """
     for name in options.assay:
-        database.family(name)
-    rules = {rule.id for rule in database.rules}
-    roles = {role for family in database.families for role in family.roles}
+        rule_set.family(name)
+    rules = {rule.id for rule in rule_set.rules}
+    roles = {role for family in rule_set.families for role in family.roles}
     for what, names, known in (
         ("rule", (*options.select, *options.ignore, *options.severity), rules),
         ("role", options.roles, roles),

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import replace
 
 from ...errors import ConfigurationError
 from ...instrumentation import OperationKind
 from ...vocabulary import Remark, Site, Undecided, WellRef
-from ..checks import Case, Doubt, Violation, make_check
+from ..checks import Check, Doubt, RuleContext, Violation
 from ..evidence import Kind, unknown_places
 from ..roles import Roles
 from ..rules import RuleSpec
@@ -16,13 +15,15 @@ from ..source import chances
 from ..trace import Contact, Well, places
 from .doubts import UNKNOWN_ASSAY, missing_needs, missing_roles, undecided_by, unnamed_wells
 from .findings import findings_of
-from .reading import Reading, uncollected
+from .interpretation import Interpretation, uncollected
 from .report import Report, RoleEvidence, verdict_of
 from .waivers import apply_waivers, read_waivers, waiver_remarks
 
 _NOT_SURELY = "{}, or only came near the liquid: it is not sure how high that stands"
 _IN_PROSE = "Only a comment or docstring says which assay this is ({})."
 _DOUBTFUL = "It rests on what is only read of a well: {}."
+_UNSAID = "Nothing in the protocol says what these wells hold."
+_NAME_ALONE = "No more than a name says what these wells hold."
 _CHANCE = (
     "What is moved depends on {}: another run may move otherwise than what was judged here. The "
     "guard follows the run, and says where it differs."
@@ -32,20 +33,21 @@ _IDLE = Remark("It moves no liquid: there is nothing to judge.")
 
 
 @uncollected()
-def judge(reading: Reading, so_far: bool | None = None) -> Report:
+def judge(reading: Interpretation, so_far: bool | None = None) -> Report:
     """Judge a rehearsal by all rules in force; ``so_far`` is of a run: whether it goes on, and what
     may follow mends. Raises ConfigurationError where given roles are misplaced."""
     judged = {
-        rule.id: _judge_rule(rule, case, bool(so_far))
+        rule.id: _judge_rule(rule, reading.rule_set.checks[rule.id], case, bool(so_far))
         for rule, case in reading.cases()
         if reading.options.severity_of(rule) != "off"
     }
     return _report(reading, judged, refuses=so_far is None)
 
 
-def _judge_rule(rule: RuleSpec, case: Case, so_far: bool) -> _Outcome:
+def _judge_rule(
+    rule: RuleSpec, checks: Sequence[Check], case: RuleContext, so_far: bool
+) -> _Outcome:
     """Where a rule is broken, or why that cannot be said (``None`` if it can)."""
-    checks = [make_check(check, rule.id) for check in rule.checks]
     if so_far:
         checks = [check for check in checks if check.lasting]
     missing = missing_needs(rule, case.roles)
@@ -57,27 +59,7 @@ def _judge_rule(rule: RuleSpec, case: Case, so_far: bool) -> _Outcome:
         return [], missing_roles(rule, case, missing)
     if not case.confident and not case.family.default and rule.scope == "family":
         return [], undecided_by(UNKNOWN_ASSAY, rule, case)
-    violations: list[Violation] = []
-    doubts: list[Doubt] = []
-    told: set[tuple[str, tuple[Site, ...]]] = set()
-    for number, check in enumerate(checks):
-        for result in check.find(case):
-            if isinstance(result, Doubt):
-                doubts.append(result)
-            elif not case.confident and not _plain(result, case.roles):
-                doubts.append(UNKNOWN_ASSAY)
-            elif (
-                case.left_over
-                and result.contact is Contact.NEAR
-                and not all(well.liquids for well in result.rests_on)
-            ):
-                doubts.append(Doubt(_NOT_SURELY.format(_begun(result.message))))
-            elif (result.message, result.sites) not in told:  # two checks may see the same
-                told.add((result.message, result.sites))
-                warning = _why_warning(result, case)
-                tip = (number, warning, *result.tip) if result.tip else ()
-                cause = (number, *result.cause)
-                violations.append(replace(result, cause=cause, tip=tip, warning=warning))
+    violations, doubts = _results(checks, case)
     if not case.confident and not violations and rule.scope == "family":
         doubts.append(UNKNOWN_ASSAY)
     if violations:
@@ -87,14 +69,41 @@ def _judge_rule(rule: RuleSpec, case: Case, so_far: bool) -> _Outcome:
     return [], undecided_by(doubts[0], rule, case) if doubts else None
 
 
+def _results(checks: Sequence[Check], case: RuleContext) -> tuple[list[Violation], list[Doubt]]:
+    """What the checks of a rule find, each place once: two checks may see the same."""
+    told: dict[str, list[tuple[Site, ...]]] = {}
+    violations: list[Violation] = []
+    doubts: list[Doubt] = []
+    for number, check in enumerate(checks):
+        for result in check.find(case):
+            doubt = result if isinstance(result, Doubt) else _doubt_about(result, case)
+            if doubt is not None:
+                doubts.append(doubt)
+            elif isinstance(result, Violation):
+                known = told.setdefault(result.message, [])
+                if result.sites not in known:
+                    known.append(result.sites)
+                    result.warning = _why_warning(result, case)
+                    result.cause = (number, *result.cause)
+                    result.tip = (number, result.warning, *result.tip) if result.tip else ()
+                    violations.append(result)
+    return violations, doubts
+
+
+def _doubt_about(violation: Violation, case: RuleContext) -> Doubt | None:
+    """Why a violation is no more than a doubt, if it is not."""
+    if not case.confident and not _plain(violation, case.roles):
+        return UNKNOWN_ASSAY
+    near = case.left_over and violation.contact is Contact.NEAR
+    if near and not all(well.liquids for well in violation.rests_on):
+        told = violation.message
+        return Doubt(_NOT_SURELY.format(told[0].lower() + told[1:].rstrip(".")))
+    return None
+
+
 def _are_supposed(needs: Sequence[str], roles: Roles) -> bool:
     """Whether some wells may have the roles that no well surely has: enough to tell of them."""
     return all(any(roles.has(ref, need.split("|")) for ref in roles.supposed) for need in needs)
-
-
-def _begun(message: str) -> str:
-    """A sentence as the start of a longer one."""
-    return message[0].lower() + message[1:].rstrip(".")
 
 
 def _plain(violation: Violation, roles: Roles) -> bool:
@@ -110,7 +119,7 @@ def _plain(violation: Violation, roles: Roles) -> bool:
     )
 
 
-def _why_warning(violation: Violation, case: Case) -> str:
+def _why_warning(violation: Violation, case: RuleContext) -> str:
     """Why a violation is a warning at most, in a sentence; empty for an error.
 
     Errors are certain (``spec/rules.md``, Severity).
@@ -126,13 +135,16 @@ def _why_warning(violation: Violation, case: Case) -> str:
         if roles.is_doubtful(well.ref):
             return _DOUBTFUL.format(roles.by_well[well.ref].evidence[0].citation)
     wells = violation.rests_on
-    if case.family.default and not all(w.liquids or _is_named(w, case) for w in wells):
-        return "Nothing in the protocol says what these wells hold."
+    shown = violation.shown
+    if case.family.default and not all(w.liquids or _is_named(w, case, shown) for w in wells):
+        named = any(well.ref in roles.by_well for well in wells if not well.liquids)
+        return _NAME_ALONE if named else _UNSAID
     return ""
 
 
-def _is_named(well: Well, case: Case) -> bool:
-    """Whether a name, a label or an argument says what a well is for.
+def _is_named(well: Well, case: RuleContext, shown: bool) -> bool:
+    """Whether a label, an argument or data says what a well is for; or a variable's name, where
+    the run has ``shown`` as much.
 
     A "sample plate" that is only given water may be one for samples.
     """
@@ -144,20 +156,24 @@ def _is_named(well: Well, case: Case) -> bool:
     # Some roles only say where something comes from or goes: others are kinds of them.
     general = any(assigned.role in spec.parents for spec in roles.family.roles.values())
     if case.beside and general and drawn:
-        return False  # a variable is called `source`, in an assay whose own words do not say more
+        return False  # in an assay whose own words do not say more
+    loose = (general or case.left_over) and not case.is_one_liquid(well)
+    loose = loose and assigned.role not in roles.derived.get(well.ref, ())
+    if loose and not shown and all(one.variable for one in assigned.evidence):
+        return False  # a variable is called `source`, and nothing else speaks for it
     return drawn or general or not assigned.evidence[0].whole
 
 
-def _report(reading: Reading, outcomes: Mapping[str, _Outcome], refuses: bool) -> Report:
+def _report(reading: Interpretation, outcomes: Mapping[str, _Outcome], refuses: bool) -> Report:
     violations = {rule: found for rule, (found, _) in outcomes.items()}
     undecided = [open_ for _, open_ in outcomes.values() if open_]
-    recording, options, database = reading.recording, reading.options, reading.database
+    recording, options, rule_set = reading.recording, reading.options, reading.rule_set
     waivers = read_waivers(reading.facts)
-    standing, waived = apply_waivers(findings_of(violations, database, options), waivers)
+    standing, waived = apply_waivers(findings_of(violations, rule_set, options), waivers)
     open_ = {question.rule for question in undecided}
     judged = [rule for rule in violations if rule not in open_]
-    known = [rule.id for rule in database.rules]
-    misplaced = [*unknown_places(reading.deck, options.roles, database.common.levels)]
+    known = [rule.id for rule in rule_set.rules]
+    misplaced = [*unknown_places(reading.deck, options.roles, rule_set.common.levels)]
     sure = [told for told, always in misplaced if always or "add_parameters" not in recording.text]
     if refuses and sure:
         raise ConfigurationError(" ".join(sure))
@@ -189,10 +205,12 @@ def _conflicts(all_roles: Sequence[Roles]) -> Iterable[Remark]:
         for conflict, refs in roles.conflicts.items():
             wells.setdefault(conflict, {}).update(dict.fromkeys(refs))
     for conflict, found in wells.items():
-        yield Remark(f"What {places(list(found))} is for is said in two ways: {conflict}.")
+        labels = " and ".join(dict.fromkeys(ref.label for ref in found if ref.label))
+        where = places(list(found)) + (f" of {labels}" if labels else "")
+        yield Remark(f"What {where} is for is said in two ways: {conflict}.")
 
 
-def _chances(reading: Reading) -> Iterable[Remark]:
+def _chances(reading: Interpretation) -> Iterable[Remark]:
     """What lets another run move otherwise than this one did."""
     for source, line in chances(reading.recording.text, reading.facts.nodes).items():
         yield Remark(_CHANCE.format(source), line)

@@ -6,10 +6,10 @@ import json
 from collections.abc import Iterable, Sequence
 
 from ...vocabulary import DeckItem, Dossier, RoleLine, RuleBrief, Severity, WellRef
-from ..database import load_database, shipped_rules
-from ..judging import Options, Reading, Report, RoleEvidence, judge, missing_needs
+from ..judging import Interpretation, Options, Report, RoleEvidence, judge, missing_needs
 from ..rehearsal import Recording, Script, record
-from ..rules import Database, RuleSpec
+from ..rule_set import RuleSet, load_rules, shipped_rules
+from ..rules import RuleSpec
 from ..trace import places, row_column, trace_table
 
 LONGEST_SOURCE = 40_000
@@ -19,7 +19,7 @@ MOST_ROLES = 40
 """Lines of roles that are shown."""
 
 
-def make_dossier(reading: Reading, report: Report) -> Dossier:
+def make_dossier(reading: Interpretation, report: Report) -> Dossier:
     """Put together what there is to know of a protocol and of what the checks made of it."""
     recording, trace = reading.recording, reading.trace
     wells = [well.ref for well in trace.wells.values()]
@@ -44,10 +44,10 @@ def make_dossier(reading: Reading, report: Report) -> Dossier:
 
 def check_with_dossier(
     script: Script,
-    database: Database | None = None,
+    rule_set: RuleSet | None = None,
     options: Options | None = None,
     timeout_s: float = 120.0,
-) -> tuple[Report, Dossier, Reading]:
+) -> tuple[Report, Dossier, Interpretation]:
     """Rehearse a protocol, judge it, and put its dossier together.
 
     Raises:
@@ -55,12 +55,12 @@ def check_with_dossier(
         RuleError: A rule file cannot be used.
     """
     recording = record(script, timeout_s=timeout_s)
-    reading = Reading(recording, database or load_database(), options)
+    reading = Interpretation(recording, rule_set or load_rules(), options)
     report = judge(reading)
     return report, make_dossier(reading, report), reading
 
 
-def _deck(reading: Reading) -> Iterable[DeckItem]:
+def _deck(reading: Interpretation) -> Iterable[DeckItem]:
     for info in reading.deck.plates():
         places_ = [row_column(name) for name in info.wells]
         rows, columns = max(p[0] for p in places_) + 1, max(p[1] for p in places_) + 1
@@ -104,9 +104,9 @@ def _levels(items: Sequence[RoleEvidence]) -> str:
     return f" (level {', '.join(shown)})"
 
 
-def _rules(reading: Reading, report: Report) -> Iterable[RuleBrief]:
+def _rules(reading: Interpretation, report: Report) -> Iterable[RuleBrief]:
     shipped = str(shipped_rules())
-    for family in reading.database.assays:
+    for family in reading.rule_set.assays:
         for rule in family.rules:
             severity = reading.options.severity_of(rule)
             if severity != "off":
@@ -114,7 +114,7 @@ def _rules(reading: Reading, report: Report) -> Iterable[RuleBrief]:
                 yield RuleBrief(rule.id, Severity(severity), rule.id in report.judged, text)
 
 
-def _wanted(reading: Reading, report: Report) -> Iterable[str]:
+def _wanted(reading: Interpretation, report: Report) -> Iterable[str]:
     """The roles that open rules need and no well has."""
     open_rules = {undecided.rule for undecided in report.undecided}
     for rule, case in reading.cases():

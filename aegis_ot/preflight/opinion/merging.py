@@ -16,7 +16,7 @@ from ...vocabulary import Finding, Opinion, Severity, Undecided, VerdictWord, is
 from ..evidence import Evidence
 from ..judging import (
     MODEL,
-    Reading,
+    Interpretation,
     Report,
     RoleEvidence,
     apply_waivers,
@@ -28,13 +28,19 @@ from ..judging import (
 )
 from .proposals import verify_proposals
 
+_SAID = {
+    "holds": "it holds",
+    "violated": "it is violated",
+    "not_applicable": "it does not apply",
+}
+
 
 def no_answer(opinion: Opinion) -> Undecided:
     """What a report says of a model that was asked in vain."""
     return Undecided(MODEL, f"{opinion.model} gave no answer ({opinion.state}): {opinion.detail}")
 
 
-def merge(report: Report, opinion: Opinion, reading: Reading) -> Report:
+def merge(report: Report, opinion: Opinion, reading: Interpretation) -> Report:
     """The checks' report with the model's opinion added; see the module for what that may do.
 
     The ``reading`` that the report judges is judged again with the roles that the model read.
@@ -63,6 +69,7 @@ def merge(report: Report, opinion: Opinion, reading: Reading) -> Report:
             )
         elif not is_known(finding, candidates):
             candidates.append(replace(finding, severity=severity))
+    notes += _against_decided(report, opinion, second)
     notes += [f"{opinion.model}, role of {text}." for text in rejected]
     notes += [f"{opinion.model}, left out: {text}" for text in opinion.left_out]
     standing, waived = apply_waivers(candidates, read_waivers(reading.facts))
@@ -81,17 +88,27 @@ def merge(report: Report, opinion: Opinion, reading: Reading) -> Report:
 
 
 def _judged_again(
-    reading: Reading, opinion: Opinion
+    reading: Interpretation, opinion: Opinion
 ) -> tuple[Mapping[Evidence, Sequence[str]], list[str], Report | None]:
     """The roles that stand, why others do not, and what the checks say with them."""
     # The family that the model reads, where the checks only guess.
-    known = {family.family for family in reading.database.assays if not family.default}
+    known = {family.family for family in reading.rule_set.assays if not family.default}
     assay = (opinion.family,) if opinion.family in known and not reading.family_known else ()
     seen = reading.with_evidence((), assay) if assay else reading
     accepted, rejected = verify_proposals(opinion.proposals, seen, opinion.model)
     if not assay and not accepted:
         return accepted, rejected, None
     return accepted, rejected, judge(reading.with_evidence(tuple(accepted), assay))
+
+
+def _against_decided(report: Report, opinion: Opinion, second: Report | None) -> Iterable[str]:
+    """What rules that are decided would find, were the wells what the model takes them for."""
+    for finding in second.findings if second else ():
+        if finding.rule in report.judged and not is_known(finding, report.findings):
+            yield (
+                f"With the roles that {opinion.model} reads, {finding.rule} would find: "
+                f"{finding.message} The check decided otherwise without them."
+            )
 
 
 def _questions(
@@ -115,8 +132,7 @@ def _questions(
         reason, paste, to_write = question.reason, question.paste, question.to_write
         answer = answers.get(question.rule)
         if answer is not None:
-            words = {"holds": "it holds", "violated": "it is violated"}
-            said = words.get(answer.answer, "it cannot tell")
+            said = _SAID.get(answer.answer, "it cannot tell")
             reason += f"; {opinion.model} reads that {said}"
             reason += f": {answer.reason}" if answer.reason else ""
         if second is not None and question.rule in second.judged:

@@ -10,9 +10,10 @@ from collections.abc import Sequence
 
 from ...vocabulary import Citation, RoleProposal, WellRef, one_line
 from ..evidence import Evidence, Kind
-from ..judging import Reading
+from ..judging import Interpretation
 from ..roles import Roles
 from ..source import level_of, source_lines
+from ..trace import row_column
 
 
 class Rejected(Exception):
@@ -20,7 +21,7 @@ class Rejected(Exception):
 
 
 def verify_proposals(
-    proposals: Sequence[RoleProposal], reading: Reading, model: str
+    proposals: Sequence[RoleProposal], reading: Interpretation, model: str
 ) -> tuple[dict[Evidence, tuple[str, ...]], list[str]]:
     """The proposals that stand, as evidence, with the level of each well as it was told, if any;
     and the others, each with the reason in a sentence.
@@ -33,18 +34,46 @@ def verify_proposals(
     for proposal in proposals:
         try:
             evidence = verifier.evidence(proposal)
-            told = tuple(filter(str.strip, proposal.levels))
-            accepted[evidence] = told * len(evidence.wells) if len(told) == 1 else told
+            accepted[evidence] = proposal_levels(proposal, evidence.wells)
         except Rejected as reason:
             wells = ", ".join(proposal.wells) or "no well"
             rejected.append(f"{wells} as {proposal.role or 'nothing'}, not accepted: {reason}")
     return accepted, rejected
 
 
+def quote_problem(said: Citation, lines: Sequence[str]) -> str:
+    """Why a quote is none of these source lines, in words that follow a colon; ``""``: it is."""
+    quote = _plain(said.quote)
+    if not any(map(str.isalpha, quote)):
+        return f"{said.quote!r} says nothing"
+    if 1 <= said.line <= len(lines) and quote in _plain(lines[said.line - 1]):
+        return ""
+    places = [n for n, line in enumerate(lines, 1) if quote in _plain(line)]
+    elsewhere = f"; it stands at line {places[0]}" if len(places) == 1 else ""
+    return f"{said.quote!r} does not stand at line {said.line}{elsewhere}"
+
+
+def proposal_levels(proposal: RoleProposal, wells: Sequence[WellRef]) -> tuple[str, ...]:
+    """The level of each well as it is told: one for all, one a column, or one a well.
+
+    Raises:
+        Rejected: It tells another number of them.
+    """
+    told = tuple(filter(str.strip, proposal.levels))
+    columns = list(dict.fromkeys(row_column(ref.name)[1] for ref in wells))
+    if len(told) in (0, len(wells)):
+        return told
+    if len(told) == 1:
+        return told * len(wells)
+    if len(told) == len(columns):
+        return tuple(told[columns.index(row_column(ref.name)[1])] for ref in wells)
+    raise Rejected(f"it tells {len(told)} levels for {len(wells)} wells")
+
+
 class _Verifier:
     """Knows the protocol, and what it has accepted so far."""
 
-    def __init__(self, reading: Reading, model: str) -> None:
+    def __init__(self, reading: Interpretation, model: str) -> None:
         self._reading = reading
         self._model = model
         self._lines = source_lines(reading.recording.text)
@@ -65,7 +94,7 @@ class _Verifier:
         for roles in families:
             for ref in wells:
                 self._check_well(roles, proposal.role, ref)
-        levels = self._levels(proposal, len(wells))
+        levels = self._levels(proposal, wells)
         self._taken.update(dict.fromkeys(wells, proposal.role))
         said = proposal.citations[0]
         return Evidence(
@@ -99,12 +128,8 @@ class _Verifier:
         if not citations:
             raise Rejected("it cites nothing")
         for said in citations:
-            quote = _plain(said.quote)
-            if not any(map(str.isalpha, quote)):
-                raise Rejected(f"{said.quote!r} says nothing")
-            inside = 1 <= said.line <= len(self._lines)
-            if not inside or quote not in _plain(self._lines[said.line - 1]):
-                raise Rejected(f"{said.quote!r} does not stand at line {said.line}")
+            if problem := quote_problem(said, self._lines):
+                raise Rejected(problem)
 
     def _check_well(self, roles: Roles, role: str, ref: WellRef) -> None:
         """Hold a role against how the run uses the well, and against what else is said of it."""
@@ -122,14 +147,12 @@ class _Verifier:
         if taken is not None and not roles.family.are_kin(role, taken):
             raise Rejected(f"{ref.address} is proposed as {taken} as well")
 
-    def _levels(self, proposal: RoleProposal, count: int) -> tuple[float | None, ...]:
+    def _levels(self, proposal: RoleProposal, wells: Sequence[WellRef]) -> tuple[float | None, ...]:
         """The level of each well, where they are told."""
-        told = [level for level in proposal.levels if level.strip()]
+        told = proposal_levels(proposal, wells)
         if not told:
-            return (None,) * count
-        if len(told) not in (1, count):
-            raise Rejected(f"it tells {len(told)} levels for {count} wells")
-        words = self._reading.database.common.levels
+            return (None,) * len(wells)
+        words = self._reading.rule_set.common.levels
         levels = []
         for text in told:
             level = level_of(text, words)
@@ -138,7 +161,7 @@ class _Verifier:
             if not any(_stands_in(said.quote, text) for said in proposal.citations):
                 raise Rejected(f"the level {text!r} stands in no quote")
             levels.append(level)
-        return tuple(levels * count if len(levels) == 1 else levels)
+        return tuple(levels)
 
 
 def _stands_in(quote: str, level: str) -> bool:

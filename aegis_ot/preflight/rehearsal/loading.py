@@ -42,7 +42,8 @@ def load(script: Script) -> Any:
         raise refusal(error, script) from error
     if not isinstance(protocol, PythonProtocol):
         raise RehearsalError(
-            f"{script.file_name} is a JSON protocol; only Python protocols can be rehearsed."
+            f"{script.file_name} is a JSON protocol, which carries no guard; "
+            "aegis-ot check judges it."
         )
     if protocol.api_level > MAX_SUPPORTED_VERSION:
         told = (

@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterable, Mapping
 from contextlib import AbstractContextManager
 from copy import copy
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 from ...errors import RehearsalError
@@ -82,7 +83,7 @@ def runtime_parameters(protocol: Any, script: Script, limit: Limit) -> Any:
         for name, value in script.parameters.items():
             _set(context, declared[name], value, is_file=False)
         for name, path in script.csv_parameters.items():
-            _set(context, declared[name], path, is_file=True)
+            _set(context, declared[name], Path(path), is_file=True)
     except RehearsalError as error:
         raise RehearsalError(f"{script.file_name}: {error}") from error.__cause__
     return context.export_parameters_for_protocol()

@@ -50,16 +50,16 @@ class Recording:
     """What a rehearsal yields.
 
     Attributes:
-        file: Name of the protocol file.
-        text: Its source.
+        text: Source of the protocol.
+        file: Name of its file.
         log: Operations and events, from a :class:`Recorder`.
         labware: Facts of each labware, by key.
         names: Names that held wells.
         parameters: The numbers and texts that its runtime parameters had.
     """
 
-    file: str
     text: str
+    file: str
     log: Sequence[Record]
     labware: Mapping[str, LabwareInfo]
     names: Sequence[NameBinding] = ()

@@ -23,6 +23,7 @@ from .recording import Recorder, Recording
 from .refusals import refuse_unexecuted, stopped
 from .run_plan import RunPlan
 from .script import Script
+from .short_stops import short_stops_told
 from .simulated_context import simulated_context
 from .virtual_time import builtins_in_virtual_time
 
@@ -111,6 +112,7 @@ def record(
             _chance_kept(),
             _stage(protocol, script, live_parameters, limit) as context,
             tapped(context, [recorder, *listeners], script.file_name) as tap,
+            short_stops_told(context, recorder, tap),
         ):
             names = NameCollector(tap.wells, tap.stack, script.file_name)
             namespace = {"__builtins__": builtins_in_virtual_time()}
@@ -118,8 +120,8 @@ def record(
                 _perform(protocol, context, limit, namespace)
             look(context)
             return Recording(
-                script.file_name,
                 script.text,
+                script.file_name,
                 recorder.log,
                 dict(tap.wells.labware),
                 names.bindings,

@@ -1,8 +1,9 @@
 """What a rehearsal moved, step by step, and whether the run that follows it does the same.
 
-Compared are the moves of liquid and tips: in which order, which wells, how much, and whether a tip
-is one that was on before. A run may differ from its rehearsal in everything else: which fresh tip
-is the next, how high the liquid stands, how long something takes, how often it is mixed.
+Compared are the moves of liquid and tips: in which order, which wells, how much, whether a tip
+is one that was on before, and whether what is given falls from above or low down in its well, where
+the tip may touch what stands there. A run may differ from its rehearsal in everything else: which
+fresh tip is the next, how high the liquid stands, how long something takes, how often it is mixed.
 """
 
 from __future__ import annotations
@@ -23,30 +24,62 @@ _COMPARED = {
 _MIX = "mixes"
 _SAME_UL = 0.01
 _SAME_SHARE = 0.01
+_SAME_MM = 2.0
+_UPPER_PART = 2 / 3
+"""Of a well's depth: above it no liquid is expected."""
 
 
-class Step(NamedTuple):
-    """One move: by which pipette, what, in which wells (of as many tips), how much, µL."""
+class Height(NamedTuple):
+    """Where the end of a tip is that gives: over its well's top, and over its bottom, mm."""
+
+    from_top: float
+    from_bottom: float
+
+    @property
+    def _part(self) -> str:
+        if self.from_top >= 0:
+            return "over the well"
+        is_high = self.from_bottom >= _UPPER_PART * (self.from_bottom - self.from_top)
+        return "high" if is_high else "low"
+
+    def equals(self, other: Height) -> bool:
+        """Whether it meets the same, as far as heights alone tell."""
+        near = abs(self.from_top - other.from_top) < _SAME_MM
+        return self._part == other._part or (near and max(self.from_top, other.from_top) < 0)
+
+    def __str__(self) -> str:
+        if self.from_top >= 0:
+            return f"{self.from_top:.3g} mm above its top"
+        return f"{self.from_bottom:.3g} mm above its bottom"
+
+
+class PlannedMove(NamedTuple):
+    """One move: by which pipette, what, in which wells (of as many tips), how much, µL, and how
+    high, if it gives."""
 
     mount: str
     action: str
     wells: tuple[tuple[str, str, str] | None, ...]
     volume: float = 0.0
     line: int | None = None
+    height: Height | None = None
 
-    def equals(self, other: Step) -> bool:
+    def equals(self, other: PlannedMove) -> bool:
         """Whether it is the same move, as far as numbers go."""
         if self[:3] != other[:3]:
             return False
         most = max(self.volume, other.volume)
-        return abs(self.volume - other.volume) <= _SAME_UL + _SAME_SHARE * most
+        if abs(self.volume - other.volume) > _SAME_UL + _SAME_SHARE * most:
+            return False
+        return not (self.height and other.height) or self.height.equals(other.height)
 
     def __str__(self) -> str:
         first = next((well for well in self.wells if well is not None), None)
         into = {"aspirates": "from", "dispenses": "into"}.get(self.action, "in")
         much = f" {self.volume:.4g} µL" if self.volume else ""
         where = f" {into} {WellRef('', first[2], first[1], first[0])}" if first else ""
-        return f"the {self.mount} pipette {self.action}{much}{where}"
+        high = f", {self.height}," if self.height else ""
+        return f"the {self.mount} pipette {self.action}{much}{where}{high}"
 
 
 class Steps:
@@ -56,7 +89,7 @@ class Steps:
         self._used: dict[WellRef, int] = {}
         self._pick_ups = 0
 
-    def of(self, operation: Operation) -> Step | None:
+    def of(self, operation: Operation) -> PlannedMove | None:
         """The step that an operation is; ``None`` for one that moves neither liquid nor a tip."""
         kind, mount = operation.kind, operation.pipette.mount
         action = _COMPARED.get(kind)
@@ -69,7 +102,7 @@ class Steps:
                 action = f"picks up again the tip of its pick-up {min(used)}" if used else action
             elif not operation.disposal:
                 action = "puts its tip back"
-            return Step(mount, action, (None,) * len(operation.nozzles), line=operation.line)
+            return PlannedMove(mount, action, (None,) * len(operation.nozzles), line=operation.line)
         if operation.mixing:
             action = _MIX
         wells = tuple(
@@ -78,7 +111,7 @@ class Steps:
         # What was asked for: a simulator that counts below zero cuts a dispense, and no robot.
         asked = operation.arguments.get("volume") or operation.volume
         volume = 0.0 if kind is OperationKind.BLOW_OUT else float(asked)
-        return Step(mount, action, wells, volume, operation.line)
+        return PlannedMove(mount, action, wells, volume, operation.line, _height(operation))
 
     def done(self, operation: Operation) -> None:
         """It was done."""
@@ -97,7 +130,16 @@ class Steps:
             }
 
 
-def _goes_on(last: Step | None, step: Step) -> bool:
+def _height(operation: Operation) -> Height | None:
+    """Of a tip that gives, where it does not follow the liquid."""
+    gives = operation.kind in (OperationKind.DISPENSE, OperationKind.BLOW_OUT)
+    top, bottom = operation.from_top, operation.from_bottom
+    if not gives or operation.mixing or operation.from_liquid is not None:
+        return None
+    return None if top is None or bottom is None else Height(top, bottom)
+
+
+def _goes_on(last: PlannedMove | None, step: PlannedMove) -> bool:
     """Whether a step only goes on with the mixing that came before it."""
     return step.action == _MIX and last is not None and last[:3] == step[:3]
 
@@ -114,11 +156,16 @@ class RunPlan:
     """
 
     def __init__(self, earlier: int = 0) -> None:
-        self.steps: list[Step] = []
+        self.steps: list[PlannedMove] = []
         self.head = 0
         self._earlier = earlier
         self._listens, self._begun = not earlier, False
         self._steps = Steps()
+
+    @property
+    def under(self) -> int | None:
+        """Under which guard the rehearsal stands now; ``None`` under none of this plan's."""
+        return self.head if self._listens else None
 
     def guard_began(self, records: int) -> None:
         """A guard of the protocol begins, after so many records of the rehearsal."""
@@ -157,11 +204,11 @@ class Comparison:
             long as it did not.
     """
 
-    def __init__(self, steps: Sequence[Step]) -> None:
+    def __init__(self, steps: Sequence[PlannedMove]) -> None:
         self._plan = steps
         self._steps = Steps()
         self._done = 0
-        self._last: Step | None = None
+        self._last: PlannedMove | None = None
         self.difference = ""
 
     def fits(self, operation: Operation) -> bool:
@@ -181,7 +228,10 @@ class Comparison:
             return False
         if not fits:
             line = f" at line {step.line}" if step.line else ""
-            self.difference = f"{step}{line}, where {self._planned()}"
+            planned = self._plan[self._done] if self._done < len(self._plan) else None
+            if planned is None or not planned._replace(height=None).equals(step):
+                step = step._replace(height=None)
+            self.difference = f"{step}{line}, where {self._planned(bool(step.height))}"
             return True
         self._last = step
         self._done += 1
@@ -196,8 +246,10 @@ class Comparison:
         if not self.difference and self._done < len(self._plan):
             self.difference = f"it ended where {self._planned()}"
 
-    def _planned(self) -> str:
+    def _planned(self, told_height: bool = False) -> str:
         if self._done >= len(self._plan):
             return "the rehearsal had ended" if self._plan else "the rehearsal moved nothing"
         planned = self._plan[self._done]
+        if not told_height:
+            planned = planned._replace(height=None)
         return f"in the rehearsal {planned}" + (f" at line {planned.line}" if planned.line else "")

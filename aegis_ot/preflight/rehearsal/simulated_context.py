@@ -42,6 +42,7 @@ def simulated_context(
         stack.callback(hardware.clean_up)
         is_legacy = api_level < ENGINE_CORE_API_VERSION
         if is_legacy:
+            stack.enter_context(_plunger_speeds())
             core_parts = {"use_simulating_core": True, "extra_labware": dict(extra_labware or {})}
         else:
             engine, loop = stack.enter_context(_engine(hardware, robot_type, deck_type, api_level))
@@ -75,6 +76,20 @@ def _hardware_simulator(robot_type: str) -> Any:
         from opentrons.hardware_control import API as Robot
     flags = HardwareFeatureFlags.build_from_ff()
     return ThreadManager(Robot.build_hardware_simulator, feature_flags=flags)
+
+
+@contextmanager
+def _plunger_speeds() -> Iterator[None]:
+    """Let ``pipette.speed`` work: it asserts a robot's core, and the simulating one has it too."""
+    from opentrons.protocol_api import instrument_context
+    from opentrons.protocol_api.core.legacy_simulator import legacy_instrument_core as simulator
+
+    names, core = vars(instrument_context), instrument_context.LegacyInstrumentCore
+    names["LegacyInstrumentCore"] = (core, simulator.LegacyInstrumentCoreSimulator)
+    try:
+        yield
+    finally:
+        names["LegacyInstrumentCore"] = core
 
 
 def _lend_modules(core: Any, hardware: Any) -> None:

@@ -1,11 +1,31 @@
 """What each well is for in the eyes of each assay family, and which family a protocol is of."""
 
-from .assay import Inference, infer_families
-from .assigning import assign_roles
-from .deriving import derive, implied_contents
-from .roles import Roles
+from typing import TYPE_CHECKING
+
+from ...lazy import door
+
+if TYPE_CHECKING:
+    from .assay import infer_families
+    from .assigning import assign_roles
+    from .deriving import derive, implied_contents
+    from .inference import Inference
+    from .naming import FamilyWords
+    from .roles import Roles
+
+__getattr__ = door(
+    __name__,
+    {
+        "assay": "infer_families",
+        "assigning": "assign_roles",
+        "deriving": "derive implied_contents",
+        "inference": "Inference",
+        "naming": "FamilyWords",
+        "roles": "Roles",
+    },
+)
 
 __all__ = [
+    "FamilyWords",
     "Inference",
     "Roles",
     "assign_roles",

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import NamedTuple
 
 from ..evidence import DOUBTFUL, Evidence, Kind
-from ..rules import Common, Database, Family, Shape
-from ..source import SourceFacts, lexicon_of, tokens
+from ..rules import Family, Shape
+from ..source import SourceFacts, tokens
 from ..trace import Trace
+from .inference import Inference
+from .naming import FamilyWords
 from .roles import Roles
 from .shapes import shapes_of
 
@@ -32,33 +34,8 @@ ALSO = 0.6
 """A second family applies from this share of the first one's score on."""
 
 
-@dataclass(frozen=True)
-class Inference:
-    """How well one family fits.
-
-    Attributes:
-        family: Name of the family.
-        score: Weight of everything that speaks for it.
-        confidence: 0 to 1: its share among all families, damped for little evidence.
-        reasons: What speaks for it, strongest first.
-        applies: Whether its rules are judged.
-        sure: Whether it is more than a guess.
-        left_over: Whether it is judged only because no other family fits.
-        in_prose: Whether it would be no more than a guess without comments and docstrings.
-    """
-
-    family: str
-    score: float
-    confidence: float
-    reasons: tuple[str, ...]
-    applies: bool
-    sure: bool
-    left_over: bool = False
-    in_prose: bool = False
-
-
 def infer_families(
-    database: Database,
+    assays: Sequence[FamilyWords],
     facts: SourceFacts,
     evidence: Sequence[Evidence],
     trace: Trace,
@@ -69,65 +46,126 @@ def infer_families(
 
     Families ``given`` by hand apply, and no other does.
     """
+    reader = _SignalReader(shapes_of(trace), assigned)
     texts = list(_texts(facts, evidence, trace))
-    shapes = shapes_of(trace)
+    fits = [_Fit(words, reader.signals(words, texts)) for words in assays]
+    fits.sort(key=lambda fit: -fit.score)
+    if given:
+        inferences = [_given_by_hand(fit, fit.family.family in given, fits) for fit in fits]
+    else:
+        inferences = [
+            _inferred(fit, fits, lambda words: reader.in_prose(words, texts)) for fit in fits
+        ]
+        if not any(inference.applies for inference in inferences):
+            inferences = list(map(_left_over, inferences, fits))
+    # What the run's own shape speaks against comes after another that applies; so does a family
+    # that is judged beside others.
+    odd = {fit.family.family for fit in fits if any(f.shape and f.worth < 0 for f in fit.found)}
+    beside = {fit.family.family for fit in fits if fit.family.beside}
+    return sorted(
+        inferences, key=lambda i: (not i.applies, i.family in odd, i.family in beside, -i.score)
+    )
 
-    def signals(family: Family, texts: Sequence[tuple[str, str]]) -> list[_Found]:
-        found = _found(family, texts, database.common)
-        found += _seen(family, shapes, bool(found))
+
+class _Fit(NamedTuple):
+    """A family with all signals found for it, the strongest first."""
+
+    words: FamilyWords
+    found: Sequence[_Found]
+
+    @property
+    def family(self) -> Family:
+        return self.words.family
+
+    @property
+    def score(self) -> float:
+        return max(_score(self.found), 0.0)
+
+    @property
+    def is_known(self) -> bool:
+        return _is_known(self.found)
+
+    @property
+    def reasons(self) -> tuple[str, ...]:
+        return tuple(one.said for one in self.found if one.worth > 0)[:6]
+
+    def share(self, fits: Sequence[_Fit]) -> float:
+        """Its share among all families, damped for little evidence."""
+        total = sum(fit.score for fit in fits) or 1.0
+        return self.score / total * min(1.0, self.score / (2 * SURE))
+
+    def is_second(self, best: float) -> bool:
+        """Whether it applies beside a better one."""
+        return self.score >= ALSO * best and _said_outright(self.found)
+
+    def outdoes_default(self, best: float) -> bool:
+        """Where wells are given what a family's own are, its words outweigh "source" and
+        "transfer"; and nothing is told twice, as the one family's fault and as the other's.
+        """
+        strong = not self.family.default and self.score >= ALSO * best
+        return strong and self.is_known and _shown(self.found)
+
+
+def _given_by_hand(fit: _Fit, named: bool, fits: Sequence[_Fit]) -> Inference:
+    confidence = 1.0 if named else round(fit.share(fits), 2)
+    return Inference(fit.family.family, fit.score, confidence, fit.reasons, named, named)
+
+
+def _inferred(
+    fit: _Fit, fits: Sequence[_Fit], in_prose: Callable[[FamilyWords], bool]
+) -> Inference:
+    rivals = [other for other in fits if other.is_known and not other.family.beside]
+    best = max((other.score for other in rivals), default=0.0)
+    sure = fit.is_known
+    applies = sure and (fit.family.beside or fit.score == best or fit.is_second(best))
+    if fit.family.default:
+        applies = applies and fit.score == best
+        applies = applies and not any(other.family.beside and other.is_known for other in fits)
+        applies = applies and not any(other.outdoes_default(best) for other in fits)
+        sure = sure if best else _is_sure_left_over(fit)
+    told = applies and sure and not fit.family.default and in_prose(fit.words)
+    confidence = round(fit.share(fits), 2)
+    return Inference(
+        fit.family.family, fit.score, confidence, fit.reasons, applies, sure, in_prose=told
+    )
+
+
+def _is_sure_left_over(fit: _Fit) -> bool:
+    """Where no more than one word speaks against it."""
+    return sum(one.worth < 0 for one in fit.found) <= 1 or _score(fit.found) >= SURE
+
+
+def _left_over(inference: Inference, fit: _Fit) -> Inference:
+    """The default family is judged where no other fits."""
+    if not fit.family.default:
+        return inference
+    reasons = (*inference.reasons, "no other family fits")
+    return replace(inference, reasons=reasons, applies=True, left_over=True)
+
+
+class _SignalReader:
+    """Finds what speaks for a family: words, shapes of the run, names of wells."""
+
+    def __init__(
+        self, shapes: Mapping[Shape, tuple[float, str]], assigned: Callable[[str], Roles]
+    ) -> None:
+        self._shapes, self._assigned = shapes, assigned
+
+    def signals(self, words: FamilyWords, texts: Sequence[tuple[str, str]]) -> list[_Found]:
+        """All signals of a family, the strongest first."""
+        family, found = words.family, _found(words, texts)
+        found += _seen(family, self._shapes, bool(found))
         if family.known_by and found and not _is_known(found):
             in_texts = _shown(found) and any(one.defining for one in found)
-            by_well = assigned(family.family).by_well.values()
+            by_well = self._assigned(family.family).by_well.values()
             named = {one.role for one in by_well if in_texts or one.kind not in DOUBTFUL}
             found += _named(family, named, sum(one.worth for one in found if one.worth > 0))
         return sorted(found, key=lambda one: -one.worth)
 
-    def in_prose(family: Family) -> bool:
+    def in_prose(self, words: FamilyWords, texts: Sequence[tuple[str, str]]) -> bool:
+        """Whether it is known only by comments and docstrings."""
         code = [(where, text) for where, text in texts if where != "text"]
-        return len(code) < len(texts) and not _is_known(signals(family, code))
-
-    scored = []
-    for family in database.assays:
-        found = signals(family, texts)
-        scored.append((max(_score(found), 0.0), family, found))
-    scored.sort(key=lambda item: -item[0])
-    total = sum(score for score, _, _ in scored) or 1.0
-    best = max((score for score, _, found in scored if _is_known(found)), default=0.0)
-    # Where wells are given what a family's own are, its words outweigh "source" and "transfer";
-    # and nothing is told twice, as the one family's fault and as the other's.
-    outdone = any(
-        not family.default and score >= ALSO * best and _is_known(found) and _shown(found)
-        for score, family, found in scored
-    )
-    inferences = []
-    for score, family, found in scored:
-        name, reasons = family.family, tuple(one.said for one in found if one.worth > 0)[:6]
-        sure = _is_known(found)
-        applies = sure and (score == best or (score >= ALSO * best and _said_outright(found)))
-        if given:
-            applies = sure = name in given
-        elif family.default:
-            applies = applies and score == best and not outdone
-            # What is left over is sure where no more than one word speaks against it.
-            against = sum(one.worth < 0 for one in found)
-            sure = sure if best else against <= 1 or _score(found) >= SURE
-        confidence = 1.0 if given and applies else score / total * min(1.0, score / (2 * SURE))
-        told = applies and sure and not (given or family.default) and in_prose(family)
-        inferences.append(
-            Inference(name, score, round(confidence, 2), reasons, applies, sure, in_prose=told)
-        )
-    if not given and not any(inference.applies for inference in inferences):
-        inferences = [
-            replace(i, reasons=(*i.reasons, "no other family fits"), applies=True, left_over=True)
-            if database.family(i.family).default
-            else i
-            for i in inferences
-        ]
-    # What the run's own shape speaks against comes after another that applies.
-    odd = {
-        family.family for _, family, found in scored if any(f.shape and f.worth < 0 for f in found)
-    }
-    return sorted(inferences, key=lambda i: (not i.applies, i.family in odd, -i.score))
+        return len(code) < len(texts) and not _is_known(self.signals(words, code))
 
 
 def _texts(
@@ -215,18 +253,11 @@ def _named(family: Family, named: set[str], said_by_words: float) -> Iterable[_F
             return
 
 
-def _found(family: Family, texts: Iterable[tuple[str, str]], common: Common) -> list[_Found]:
-    lexicon = lexicon_of(
-        {
-            str(n): (*signal.words, *(w for role in signal.roles for w in family.roles[role].words))
-            for n, signal in enumerate(family.signals)
-        },
-        common.aliases,
-    )
+def _found(words: FamilyWords, texts: Iterable[tuple[str, str]]) -> list[_Found]:
     best: dict[str, _Found] = {}
     for where, text in texts:
-        for match in lexicon.find(text):
-            signal = family.signals[int(match.topic)]
+        for match in words.signals.find(text):
+            signal = words.family.signals[int(match.topic)]
             worth = signal.weight * PLACES[where]
             if match.topic not in best or abs(worth) > abs(best[match.topic].worth):
                 said = f"'{match.phrase}' in a {where}"

@@ -7,8 +7,10 @@ unsaid: a well without evidence has no role, and rules that need one are undecid
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import functools
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
+from functools import partial
 from typing import NamedTuple
 
 from ...vocabulary import WellRef
@@ -16,11 +18,11 @@ from ..evidence import Evidence, Kind
 from ..rules import Common, Family
 from ..source import level_in
 from ..trace import Trace
-from .naming import RoleNames
+from .naming import FamilyWords
 from .roles import Assignment, Roles
 
 
-class Candidate(NamedTuple):
+class RoleCandidate(NamedTuple):
     """A role that a piece of evidence names for a well, and how much that is worth."""
 
     worth: tuple[float, ...]
@@ -30,22 +32,20 @@ class Candidate(NamedTuple):
 
 
 def assign_roles(
-    family: Family,
-    common: Common,
-    evidence: Sequence[Evidence],
-    trace: Trace,
+    words: FamilyWords, common: Common, evidence: Iterable[Evidence], trace: Trace
 ) -> Roles:
     """Give each well the role that the strongest evidence names, and that its use allows."""
+    family = words.family
     roles = Roles(family)
-    names = RoleNames(family, common)
-    candidates: dict[WellRef, list[Candidate]] = {}
+    candidates: dict[WellRef, list[RoleCandidate]] = {}
     for one in evidence:
-        named = names.of(one)
-        worth = _worth(one, names)
-        control = names.has_word_of_control(one.text)
+        named = words.of(one)
         placed = False
+        if named:
+            worth, control = _worth(one, words), words.has_word_of_control(one.text)
+            fitting = functools.cache(partial(_fitting, named, family, one))
         for ref, level in zip(one.wells, _levels(one, common), strict=True) if named else ():
-            role = _fitting(named, roles, trace.sides(ref), one)
+            role = fitting(trace.sides(ref))
             if role and level and family.roles[role].level == 0:
                 if one.levels:  # `standards[0]` is no blank
                     role = next(iter(family.roles[role].parents), None)
@@ -59,7 +59,7 @@ def assign_roles(
                 said.update({name: max(one.kind, said.get(name, one.kind)) for name in named})
             if role is not None and not (family.roles[role].dosed and level == 0):
                 placed = True
-                candidates.setdefault(ref, []).append(Candidate(worth, role, one, level))
+                candidates.setdefault(ref, []).append(RoleCandidate(worth, role, one, level))
         if not placed:
             roles.unread.append(one)
             if one.kind is Kind.LIQUID:
@@ -72,9 +72,9 @@ def assign_roles(
     return roles
 
 
-def _worth(one: Evidence, names: RoleNames) -> tuple[float, ...]:
+def _worth(one: Evidence, words: FamilyWords) -> tuple[float, ...]:
     kind = float(one.kind)
-    if one.kind is Kind.DESCRIPTION and names.is_outright(one.text):
+    if one.kind is Kind.DESCRIPTION and words.is_outright(one.text):
         kind = Kind.LIQUID + 0.5  # "steroid-free serum", described as "diluent"
     return (kind, 0.0 if one.whole else 1.0, -float(len(one.wells)))
 
@@ -90,12 +90,12 @@ def _levels(evidence: Evidence, common: Common) -> tuple[float | None, ...]:
 
 
 def _fitting(
-    named: Sequence[str], roles: Roles, sides: tuple[str, bool], evidence: Evidence
+    named: Sequence[str], family: Family, evidence: Evidence, sides: tuple[str, bool]
 ) -> str | None:
     """The first named role whose side agrees with how the run uses the well."""
     if evidence.kind is Kind.GIVEN:
         return named[0]
-    specs = roles.family.roles
+    specs = family.roles
     side, passes_on = sides
     fitting = [role for role in named if specs[role].side in ("any", side)]
     if evidence.whole and side == "destination" and not passes_on:
@@ -113,15 +113,13 @@ def _fitting(
     # The vehicle control in "vehicle (mock)": of a kind and its parent, the kind; and the vehicle
     # in "PBS (vehicle)": what a medium is used as, where both are said.
     for role in fitting[:1]:
-        finer = [
-            r for r in fitting if role in roles.family.closure(r) - {r} or r in specs[role].may_be
-        ]
+        finer = [r for r in fitting if role in family.closure(r) - {r} or r in specs[role].may_be]
         fitting = finer or fitting
     return fitting[0] if fitting else None
 
 
 def _chosen(
-    roles: Roles, ref: WellRef, found: list[Candidate], is_filled: bool
+    roles: Roles, ref: WellRef, found: list[RoleCandidate], is_filled: bool
 ) -> Assignment | None:
     """What a well is for; ``None`` where weak evidence says two things that nothing settles."""
     closure, are_kin = roles.family.closure, roles.family.are_kin
@@ -159,11 +157,16 @@ def _chosen(
 def _spread_over_channels(roles: Roles, trace: Trace) -> None:
     """A name for the well that a multi-channel pipette is aimed at names its whole column.
 
-    Only where the named well is never used alone, and the others have no better evidence.
+    Only where the named well is never used alone, and the others have no better evidence; and not
+    where several wells of the column are named alike: those that are left out are left empty.
     """
+    named = {ref: one for ref, one in roles.by_well.items() if not one.whole}
     for first, group in trace.groups.items():
         assigned = roles.by_well.get(first)
         if assigned is None or first in trace.singles:
+            continue
+        alike = (named[ref].role for ref in group[1:] if first in named and ref in named)
+        if any(roles.family.are_kin(role, assigned.role) for role in alike):
             continue
         for ref in group:
             other = roles.by_well.get(ref)

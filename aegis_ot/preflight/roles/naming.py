@@ -1,4 +1,4 @@
-"""Which roles of a family a name, a label or a liquid names."""
+"""What the words of a family say: which of its roles a name, a label or a liquid names."""
 
 from __future__ import annotations
 
@@ -14,11 +14,16 @@ _SEVERAL = 3
 """Two wells may well hold one liquid that is called by a plural."""
 
 
-class RoleNames:
-    """The words of one family's roles."""
+class FamilyWords:
+    """The words of one family: of its roles, and of what reveals it; made once for all protocols.
+
+    Attributes:
+        family: The family.
+        signals: Finds what reveals it; the topics are the places in its list of signals.
+    """
 
     def __init__(self, family: Family, common: Common) -> None:
-        self._family = family
+        self.family = family
         self._joints = _first_words(common.joints)
         self._sides = _first_words(common.sides)
         self._joining = _first_words(common.joining)
@@ -32,6 +37,13 @@ class RoleNames:
             common.aliases,
         )
 
+        self.signals = lexicon_of(
+            {
+                str(n): (*one.words, *(w for role in one.roles for w in family.roles[role].words))
+                for n, one in enumerate(family.signals)
+            },
+            common.aliases,
+        )
         liquids = {role for spec in family.roles.values() for role in spec.follows}
         names: dict[bool, set[tuple[str, ...]]] = {True: set(), False: set()}
         for name, spec in family.roles.items():
@@ -50,11 +62,14 @@ class RoleNames:
         only says more about it. A word that only says on which side of a transfer something
         stands comes last: ``water_src`` is water.
         """
-        if evidence.role in self._family.roles:
+        if evidence.role in self.family.roles:
             return [evidence.role]
         if evidence.kind is Kind.MODEL:
             return []  # a verified role, of another family
         text = evidence.text
+        plain = text.replace("%", " percent ")  # most texts have no word of a family
+        if not any(map(self._lexicon.may_find, (plain, plain.replace(".", " ")))):
+            return []
         record, dot, field = text.rpartition(".")
         if dot:
             # `assay.mix_tube` is a mix and no assay mix; `NO_DNA.dna_tube` holds no DNA.
@@ -101,12 +116,12 @@ class RoleNames:
             (at for at, word in enumerate(words) if at and word in self._joints), len(words)
         )
         behind = {match.topic for match in self._lexicon.find(text) if match.start >= start}
-        controls = {role for role, spec in self._family.roles.items() if spec.follows}
+        controls = {role for role, spec in self.family.roles.items() if spec.follows}
         return behind if behind <= controls else set()
 
     def _may_serve(self, named: Sequence[str], control: str) -> bool:
         """Whether what is named, if anything, may be a control's liquid: water is, a mix not."""
-        specs = self._family.roles
+        specs = self.family.roles
         return not named or any(control in specs[role].may_be for role in named)
 
     def _speaks_of_several(self, evidence: Evidence, text: str, heads: Sequence[Match]) -> bool:
@@ -122,13 +137,13 @@ class RoleNames:
         if len(parts) < 2:
             starts = {match.start for match in heads}
             told = [{match.topic for match in heads if match.start == start} for start in starts]
-        specs = self._family.roles
+        specs = self.family.roles
 
         def kin(one: str, other: str) -> bool:
             if one not in specs or other not in specs:
                 return one == other
             used = other in specs[one].may_be or one in specs[other].may_be
-            return used or self._family.are_kin(one, other)
+            return used or self.family.are_kin(one, other)
 
         unlike = any(
             some != others and not all(kin(one, other) for one in some for other in others)
@@ -151,7 +166,7 @@ class RoleNames:
         "stocks" holds different ones.
         """
         said = {match.phrase for match in self._lexicon.find(text) if match.topic == role}
-        return bool(said) and said <= set(self._family.roles[role].differing)
+        return bool(said) and said <= set(self.family.roles[role].differing)
 
 
 def _first_words(phrases: Sequence[str]) -> frozenset[str]:

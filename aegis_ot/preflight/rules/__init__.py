@@ -1,14 +1,14 @@
 """What rule files say, as dataclasses, and how JSON is read into them.
 
 Nothing here knows what a protocol is. The files themselves are loaded, and held against the
-checks that they name, in :mod:`aegis_ot.preflight.database`.
+checks that they name, in :mod:`aegis_ot.preflight.rule_set`.
 """
 
-from .database import Common, Database
 from .dataclass_reader import hints_of, is_required, parse_json, public_fields, read_dataclass
 from .specs import (
     READABLE,
     SCHEMA_VERSION,
+    Common,
     Example,
     Examples,
     Family,
@@ -26,7 +26,6 @@ __all__ = [
     "READABLE",
     "SCHEMA_VERSION",
     "Common",
-    "Database",
     "Example",
     "Examples",
     "Family",

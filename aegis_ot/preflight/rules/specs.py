@@ -96,6 +96,7 @@ class RoleSpec:
         never: Phrases that hold one of the words and still do not name it.
         differing: Those of its words that in the plural, or for a labware, stand for liquids which
             differ, and so do not name it: a rack of "stocks".
+        alike: Those of its words that, loaded into several wells, may be one liquid: "antibody".
         one_liquid: Whether all wells of this role hold the same liquid unless named apart.
         implies_contents: Whether such a well held liquid before the run.
         filled_by: For ``implies_contents``: roles whose liquid, given in the run, would make up
@@ -124,6 +125,7 @@ class RoleSpec:
     words: tuple[Word, ...] = ()
     never: tuple[Word, ...] = ()
     differing: tuple[Word, ...] = ()
+    alike: tuple[Word, ...] = ()
     one_liquid: bool = False
     implies_contents: bool = False
     filled_by: tuple[str, ...] = role_names()
@@ -248,6 +250,8 @@ class Family:
         known_by: Roles that make it known together, where wells are named for all of them.
         default: Whether it is judged where nothing speaks for another family. One of all families
             is, and that is the shipped ``generic``.
+        beside: Whether it is judged beside every other family that is known, and silences only the
+            ``default`` one: a clean-up within a PCR workflow.
     """
 
     family: Name
@@ -261,6 +265,7 @@ class Family:
     shapes: tuple[ShapeSignal, ...] = ()
     known_by: tuple[RoleSignal, ...] = ()
     default: bool = False
+    beside: bool = False
     path: str = field(default="", compare=False, metadata={"internal": True})
 
     @property
@@ -284,3 +289,42 @@ class Family:
         if one not in self.roles or other not in self.roles:
             return one == other
         return one in self.closure(other) or other in self.closure(one)
+
+
+@dataclass(frozen=True)
+class Common:
+    """``common.json``: word lists that belong to no family.
+
+    Attributes:
+        pauses: What a pause's message says may have been done, see ``trace.pauses``.
+        prefilled: Names of wells that held liquid before the run.
+        waste: Names of wells that are waste.
+        flow_through: Names of labware that liquid runs through: it holds nothing.
+        levels: Words for concentrations, with their value: ``blank`` is 0.
+        amounts: Words for concentrations or doses: ``conc``.
+        aliases: Abbreviations and what they stand for, word by word.
+        joints: What follows one of these only says more: "drug in medium".
+        sides: Words that only say on which side of a transfer something stands: ``src``.
+        joining: Words that join several things: "and".
+        lacking: Words before something that is not there: "without".
+        noise: Words that tell no compound from another: "stock", "well".
+        distinct: Words for things of which each has a name of its own: "compounds".
+        dose_words: Words for amounts of one thing: "dose".
+        schema: The version of this format.
+    """
+
+    pauses: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    prefilled: tuple[str, ...] = ()
+    waste: tuple[str, ...] = ()
+    flow_through: tuple[str, ...] = ()
+    levels: Mapping[str, float] = field(default_factory=dict)
+    amounts: tuple[str, ...] = ()
+    aliases: Mapping[str, str] = field(default_factory=dict)
+    joints: tuple[str, ...] = ()
+    sides: tuple[str, ...] = ()
+    joining: tuple[str, ...] = ()
+    lacking: tuple[str, ...] = ()
+    noise: tuple[str, ...] = ()
+    distinct: tuple[str, ...] = ()
+    dose_words: tuple[str, ...] = ()
+    schema: int = SCHEMA_VERSION

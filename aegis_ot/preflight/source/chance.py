@@ -16,6 +16,8 @@ SIMULATING = "is_simulating"
 _MODULES: Mapping[str, str] = {
     "random": "chance (random)",
     "secrets": "chance (random)",
+    "os.urandom": "chance (random)",
+    "uuid": "chance (random)",
     "numpy.random": "chance (random)",
     "time": "the clock",
     "datetime": "the clock",
@@ -46,6 +48,10 @@ _MOVES = frozenset(
         "consolidate_with_liquid_class",
     }
 )  # fmt: skip
+_CHANGES = frozenset({"append", "extend", "insert", "pop", "remove", "reverse", "sort", "update"})
+"""Methods that change a list or dict in place."""
+
+_SEEDED = ("random.Random", "numpy.random.default_rng", "numpy.random.RandomState")
 _LOADS = ("load_labware", "load_module", "load_adapter", "load_instrument", "define_liquid")
 _MOST_ROUNDS = 10
 
@@ -87,21 +93,33 @@ class _Chances:
             self._name([loop.target], loop.iter)
         for item in (one for block in of(ast.With) for one in block.items if one.optional_vars):
             self._name([*filter(None, [item.optional_vars])], item.context_expr)
-        for call in self._nodes.of(ast.Call):
+        for call in of(ast.Call):
             # What is shuffled, or read into, holds it from then on.
             source = self._source_of(call)
-            if source == _MODULES["random"]:
+            if source == _MODULES["random"] or _method(call) == "shuffle":
                 self._name(call.args[:1], call)
+            for given in (*call.args, *(word.value for word in call.keywords)):
+                self._name(_changed(call), given)
+        for branch in self._branches():
+            # What is set or turned round under a condition holds what decides it.
+            for part in (one for step in (*branch.body, *branch.orelse) for one in ast.walk(step)):
+                if isinstance(part, ast.Assign) and not _loads(part.value):
+                    held = [one for one in part.targets if not isinstance(one, ast.Attribute)]
+                    self._name(held, branch.test)
+                elif isinstance(part, ast.Call):
+                    self._name(_changed(part), branch.test)
+
+    def _branches(self) -> list[ast.If | ast.While]:
+        return [*self._nodes.of(ast.If), *self._nodes.of(ast.While)]
 
     def _name(self, targets: Sequence[ast.expr], value: ast.expr) -> None:
-        source = self._in(value)
+        source = self._in(value) if targets else ""
         for part in (part for target in targets for part in ast.walk(target)):
             if source and isinstance(part, ast.Name):
                 self._names.setdefault(part.id, source)
 
     def _reached(self) -> Iterator[tuple[str, int]]:
-        branches: list[ast.If | ast.While] = [*self._nodes.of(ast.If), *self._nodes.of(ast.While)]
-        for branch in branches:
+        for branch in self._branches():
             source = self._in(branch.test)
             if source and any(map(_decides, [*branch.body, *branch.orelse])):
                 yield source, branch.lineno
@@ -124,6 +142,8 @@ class _Chances:
         first, _, rest = name.partition(".")
         full = ".".join(filter(None, (self._imported.get(first, ""), rest)))
         last = name.rpartition(".")[2]
+        if full in _SEEDED and call.args and isinstance(call.args[0], ast.Constant):
+            return ""
         if not full or last in _IDLE:
             return _CALLS.get(last, "") if last not in _IDLE else ""
         for module, source in _MODULES.items():
@@ -137,10 +157,24 @@ def _parts(value: ast.expr) -> Iterator[ast.AST]:
     open_: list[ast.AST] = [value]
     while open_:
         part = open_.pop()
-        loads = isinstance(part, ast.Call) and _dotted(part.func).rpartition(".")[2]
-        if not (loads and loads.startswith(_LOADS)):
+        if not _loads(part):
             yield part
             open_ += ast.iter_child_nodes(part)
+
+
+def _loads(part: ast.AST) -> bool:
+    return isinstance(part, ast.Call) and _dotted(part.func).rpartition(".")[2].startswith(_LOADS)
+
+
+def _method(call: ast.Call) -> str:
+    return call.func.attr if isinstance(call.func, ast.Attribute) else ""
+
+
+def _changed(call: ast.Call) -> list[ast.expr]:
+    """The name of the list or dict that a call changes in place."""
+    if not isinstance(call.func, ast.Attribute) or _method(call) not in _CHANGES:
+        return []
+    return [call.func.value] if isinstance(call.func.value, ast.Name) else []
 
 
 def _imports(nodes: Nodes) -> Iterator[tuple[str, str]]:

@@ -37,6 +37,11 @@ def tokens(text: str) -> tuple[str, ...]:
     return tuple(_singular(_folded(piece.lower())) for piece in _PIECES.findall(plain))
 
 
+@functools.lru_cache(maxsize=8192)
+def _is_mixed(text: str) -> bool:
+    return _MIXED.search(text) is not None
+
+
 _LETTERS = str.maketrans({"ß": "ss", "µ": "u", "æ": "ae", "Æ": "Ae", "œ": "oe", "Œ": "Oe"})
 
 
@@ -76,6 +81,7 @@ class Lexicon:
 
     Attributes:
         find: All phrases in a text, none overlapping a longer one, in order.
+        words: The words of a text that matches count: abbreviations spelled out.
     """
 
     def __init__(
@@ -93,10 +99,14 @@ class Lexicon:
         for entries in self._by_first.values():
             entries.sort(key=lambda entry: -len(entry[0]))
         self.find = functools.lru_cache(maxsize=_MOST_TEXTS)(self._find)
+        self.words = functools.lru_cache(maxsize=_MOST_TEXTS)(self._words)
 
-    def words(self, text: str) -> tuple[str, ...]:
-        """The words of a text that matches count: abbreviations spelled out."""
-        return self._full(tokens(_MIXED.sub(self._joined, text)))
+    def may_find(self, text: str) -> bool:
+        """Whether a word of a text begins a phrase: else there is none in any part of it."""
+        return not self._by_first.keys().isdisjoint(self.words(text))
+
+    def _words(self, text: str) -> tuple[str, ...]:
+        return self._full(tokens(_MIXED.sub(self._joined, text) if _is_mixed(text) else text))
 
     def _joined(self, written: re.Match[str]) -> str:
         """One word of "HeLa" or "siRNA", where the lists have that and none of its parts."""
@@ -106,6 +116,8 @@ class Lexicon:
         return word if tokens(word)[0] in self._by_first else written.group()
 
     def _full(self, words: tuple[str, ...]) -> tuple[str, ...]:
+        if self._aliases.keys().isdisjoint(words):
+            return words
         return tuple(self._aliases.get(word, word) for word in words)
 
     def _find(self, text: str) -> tuple[Match, ...]:

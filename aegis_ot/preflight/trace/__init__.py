@@ -3,16 +3,16 @@
 Door: :func:`build_trace` gives a :class:`Trace`.
 """
 
-from .building import build_trace, touched_by_tip
-from .geometry import Contact
+from .building import FALLS_MM, build_trace, touched_by_tip
+from .geometry import Contact, row_column
 from .loads import Given, Load, loads_of
-from .model import EMPTY_UL, Transfer, Visit, Well, row_column
+from .model import EMPTY_UL, Met, Tip, Transfer, Visit, Well
 from .table import places, trace_table
-from .tips import Met, Tip
 from .trace import Beside, Imbalance, Trace, Usage, chains_of
 
 __all__ = [
     "EMPTY_UL",
+    "FALLS_MM",
     "Beside",
     "Contact",
     "Given",

@@ -7,16 +7,17 @@ module is where those words become values. One pass over the recorded steps, no 
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Collection, Mapping, Sequence
 
 from ...instrumentation import Event, EventKind, LabwareInfo, Operation, OperationKind
 from ...vocabulary import WellRef
 from ..rehearsal import Record, Recorder
 from .geometry import CLEARANCE_MM, Contact
-from .model import Layer, Transfer, Visit, Well
+from .model import Layer, Tip, Transfer, Visit, Well
 from .pauses import Words, read_pause, topics_in
 from .plates import Plates
-from .tips import Tip, TipBox
+from .tips import TipBox
 from .trace import Beside, Imbalance, Trace
 
 _MOST = 0.5
@@ -27,8 +28,12 @@ _TO_EMPTY = 1.25
 
 _MOVING = (OperationKind.ASPIRATE, OperationKind.DISPENSE, OperationKind.BLOW_OUT)
 
-_FALLS_MM = 20.0
+FALLS_MM = 20.0
 """A drop let go higher over a well's top than this may land anywhere."""
+
+
+_EMPTY = re.compile(r"empty(\W+(well|tube|vial|plate|position)s?)?", re.I)
+"""Names of liquids that say there is none."""
 
 
 def build_trace(
@@ -67,6 +72,11 @@ class _Builder:
     ) -> None:
         self._box = TipBox()
         self._trace = Trace(labware, tips=self._box.tips)
+        self._half_loaded = {
+            key
+            for key, info in labware.items()
+            if info.is_tip_rack and "half" in topics_in(info.label, words)
+        }
         self._words = words
         self._plates = Plates(labware, prefilled, self._trace.wells, through)
         self._slots = {key: info.slot for key, info in labware.items()}
@@ -78,6 +88,10 @@ class _Builder:
 
     def run(self, log: Sequence[Record]) -> Trace:
         self._trace.log = log
+        for step in log:
+            if isinstance(step, Operation) and step.kind in _MOVING and _is_in_pairs(step.wells):
+                labware = step.wells[0].labware if step.wells[0] else ""
+                self._trace.in_pairs.setdefault(step.pipette.key, set()).add(labware)
         for record in log:
             # Wherever it stands in the text, it tells what is there before the run.
             if isinstance(record, Event) and record.kind is EventKind.LIQUID_LOADED:
@@ -109,6 +123,9 @@ class _Builder:
     def _liquid(self, event: Event) -> None:
         for ref in event.wells:
             well = self._plates.well(ref)
+            if _EMPTY.fullmatch(event.text.strip()):
+                well.declared = 0.0  # the volume is for the app's picture of the deck
+                continue
             if event.text and event.text not in well.liquids:
                 well.liquids.append(event.text)
             if event.description:
@@ -139,13 +156,13 @@ class _Builder:
     def _step(self, step: Operation) -> None:
         kind = step.kind
         if kind is OperationKind.PICK_UP_TIP:
-            self._box.pick_up(step.pipette.key, step.nozzles, step.wells)
+            self._box.pick_up(step.pipette.key, step.nozzles, self._loaded(step))
         elif kind is OperationKind.DROP_TIP:
             homes = (None,) * len(step.nozzles) if step.disposal else step.wells
             self._box.drop(step.pipette.key, step.nozzles, homes)
         elif not self._repeats(step):
             self._note_group(step)
-            if None in step.wells or self._strayed:
+            if self._strayed or not all(step.wells):
                 self._note_beside(step)
             for nozzle, ref in zip(step.nozzles, step.wells, strict=False):
                 tip = self._box.on(step.pipette.key, nozzle)
@@ -153,6 +170,17 @@ class _Builder:
                     continue  # a multi-channel pipette that took up fewer tips
                 well = None if ref is None or step.disposal else self._plates.well(ref)
                 self._act(step, tip, well)
+
+    def _loaded(self, step: Operation) -> Sequence[WellRef | None]:
+        """Where the tips stand that are picked up: of a rack that is called half loaded every other
+        one, where the pipette goes two tips a well elsewhere.
+        """
+        if step.pipette.key not in self._trace.in_pairs:
+            return step.wells
+        return [
+            None if number % 2 and ref is not None and ref.labware in self._half_loaded else ref
+            for number, ref in enumerate(step.wells)
+        ]
 
     def _repeats(self, step: Operation) -> bool:
         """Whether a step only repeats a mixing cycle that is noted already.
@@ -170,11 +198,15 @@ class _Builder:
         return False
 
     def _note_group(self, step: Operation) -> None:
-        refs = tuple(ref for ref in step.wells if ref)
+        first = step.wells[0] if step.wells else None
+        if first is None:
+            return
         if len(step.wells) == 1:
-            self._trace.singles.update(refs)
-        elif step.wells and step.wells[0] is not None and len(set(refs)) > 1:
-            self._trace.groups.setdefault(refs[0], refs)
+            self._trace.singles.add(first)
+        elif first not in self._trace.groups:
+            refs = tuple(ref for ref in step.wells if ref)
+            if len(set(refs)) > 1:
+                self._trace.groups[first] = refs
 
     def _note_beside(self, step: Operation) -> None:
         """Tips that stand over no well of a labware, and wells that get air from them later."""
@@ -267,10 +299,11 @@ class _Builder:
         if well.full * _TO_EMPTY < step.volume and not step.mixing:
             self._trace.overdrawn.setdefault(well, visit)
         missing = well.draw(step.volume)
-        if well.known or not well.prefilled:
+        # Of a sample of unknown volume that the run adds to, it is not known where its end is.
+        if well.known or not well.prefilled or well.fed:
             tip.unsure += max(step.volume - least, 0.0)
         visit.air = missing if well.declared is not None else 0.0
-        if missing > _slack(step.volume):
+        if missing > 0 and missing > _slack(step.volume):
             self._trace.imbalances.append(Imbalance(visit, False, step.volume, held))
         tip.layers.append(Layer(well, step.volume, liquid, step.line))
         self._last[tip] = visit
@@ -291,12 +324,13 @@ class _Builder:
             well.add(volume - air, liquid, max(unsure - air, 0.0))
         well.received += visit.brought
         self._trace.transfers += visit.brought
-        if step.from_top is not None and step.from_top > _FALLS_MM:
+        if step.from_top is not None and step.from_top > FALLS_MM:
             well.fallen += visit.volume
         # What goes back into a well of unknown volume was there before.
         fills = bool(visit.brought) or (well.known and visit.volume > 0)
-        if fills and well.least > well.capacity + _slack(well.capacity):
-            self._trace.imbalances.append(Imbalance(visit, True, well.least, well.capacity))
+        least, capacity = well.least, well.capacity
+        if fills and least > capacity and least > capacity + _slack(capacity):
+            self._trace.imbalances.append(Imbalance(visit, True, least, capacity))
         heights = (step.from_top, step.from_bottom, step.from_liquid)
         visit.contact = well.contact(*heights, empty=visit.empty_before)
         self._touch(visit)
@@ -322,6 +356,14 @@ class _Builder:
             mixes[-1] = (mixes[-1][0], visit.index)
         else:
             mixes.append((drawn.index, visit.index))
+
+
+def _is_in_pairs(wells: Sequence[WellRef | None]) -> bool:
+    """Whether of eight tips only every other one has a well of its own: labware of four rows."""
+    if len(wells) != 8:
+        return False
+    own = set(wells[::2])
+    return len(own) == 4 and None not in own and own >= {*wells} - {None}
 
 
 def _slack(volume: float) -> float:

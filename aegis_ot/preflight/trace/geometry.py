@@ -46,14 +46,16 @@ class Geometry:
     Attributes:
         depth: From the rim to the bottom, mm.
         brim: µL that it holds filled to the rim.
+        volume_below: µL that stand in the well when it is filled up to a height, mm above its
+            bottom.
     """
 
     def __init__(self, info: WellInfo) -> None:
         self.depth = info.depth
         self._sections = info.sections or _assumed(info)
-        self._reckon = functools.cache(self._reckoned)
         self._scale = 1.0
-        inside = self._reckon(info.depth)
+        self.volume_below = functools.cache(self._volume_below)
+        inside = self._reckoned(info.depth)
         if info.sections:
             self.brim = max(inside, info.max_volume)
         else:
@@ -61,9 +63,8 @@ class Geometry:
             if 0 < inside < info.max_volume:
                 self._scale = info.max_volume / inside  # narrower than what it is said to hold
 
-    def volume_below(self, height: float) -> float:
-        """µL that stand in the well when it is filled up to ``height`` mm above its bottom."""
-        return self._scale * self._reckon(min(round(height, 2), self.depth))
+    def _volume_below(self, height: float) -> float:
+        return self._scale * self._reckoned(min(round(height, 2), self.depth))
 
     def is_high(self, height: float) -> bool:
         """Whether a height above the bottom is in the upper third, where no liquid is expected."""
@@ -126,3 +127,15 @@ def _assumed(info: WellInfo) -> tuple[Mapping[str, Any], ...]:
         return ({**tube, "bottomDiameter": width * _TAPER, "bottomHeight": 0.0},)
     ball = {"shape": "spherical", "radiusOfCurvature": width / 2, "bottomHeight": 0.0}
     return ({**ball, "topHeight": rounded}, {**tube, "bottomHeight": rounded})
+
+
+def row_column(name: str) -> tuple[int, int]:
+    """``"B12"`` -> ``(1, 11)``; names that are not of this form count as the first well."""
+    letters = name.rstrip("0123456789")
+    digits = name[len(letters) :]
+    row = 0
+    for letter in letters.upper():
+        if not "A" <= letter <= "Z":
+            return (0, 0)
+        row = row * 26 + ord(letter) - ord("A") + 1
+    return (max(row - 1, 0), int(digits) - 1 if digits else 0)

@@ -1,18 +1,15 @@
-"""What a trace is made of: wells, and what each tip did at each well."""
+"""What a trace is made of: wells, tips, and what each tip did at each well."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
-from ...instrumentation import Operation, OperationKind
+from ...instrumentation import Operation, OperationKind, expel
 from ...vocabulary import WellRef
-from .geometry import CLEARANCE_MM, Contact, Geometry
-
-if TYPE_CHECKING:
-    from .tips import Tip
+from .geometry import CLEARANCE_MM, Contact, Geometry, row_column
 
 Composition = Mapping["Well", float]
 """Shares of a liquid by the well each part stood in before the run; they sum to 1."""
@@ -199,6 +196,60 @@ class Well:
         return Contact.CLEAR if clear else Contact.NEAR
 
 
+@dataclass(eq=False, slots=True)
+class Met:
+    """First contact of a tip with one liquid or one well; ``wet``: index of the first wet one."""
+
+    well: Well
+    line: int | None
+    caller: int | None
+    index: int
+    wet: float
+
+    def contact(self, index: float = math.inf) -> Contact:
+        """How surely the tip had met it by this index."""
+        return Contact.WET if self.wet <= index else Contact.NEAR
+
+
+@dataclass(eq=False, slots=True)
+class Tip:
+    """One tip from its first pick-up on; a returned tip goes on with the same history.
+
+    Attributes:
+        number: Counts the tips of a run.
+        session: Counts this tip's pick-ups.
+        layers: Liquid and air in it, drawn last stands last.
+        origins: Each liquid it has met, with the first contact, in that order.
+        touched: Each well it has touched, with the first contact, in that order.
+        visits: Everything it did, in order.
+        unsure: µL of its liquid that may be air: drawn from a well beyond what that held.
+    """
+
+    number: int
+    session: int = 0
+    layers: list[Layer] = field(default_factory=list)
+    origins: dict[Well, Met] = field(default_factory=dict)
+    touched: dict[Well, Met] = field(default_factory=dict)
+    visits: list[Visit] = field(default_factory=list)
+    unsure: float = 0.0
+
+    def touch(self, visit: Visit, contact: Contact = Contact.WET) -> None:
+        """The tip's outside met the well: it now carries all that the well holds."""
+        well, index = visit.well, visit.index
+        wet = index if contact is Contact.WET else math.inf
+        for known, keys in ((self.touched, (well,)), (self.origins, well.contents)):
+            for key in keys:
+                met = known.get(key)
+                if met is None:
+                    known[key] = Met(well, visit.line, visit.caller, index, wet)
+                elif wet < met.wet:
+                    met.wet = wet
+
+    def pop(self, volume: float = math.inf) -> list[Layer]:
+        """Give off ``volume`` µL, air included; the air is not listed."""
+        return [one for one in expel(self.layers, volume) if one.source is not None]
+
+
 @dataclass(eq=False, slots=True, repr=False)
 class Visit:
     """One thing that one tip did at one well.
@@ -273,15 +324,3 @@ class Transfer(NamedTuple):
     volume: float
     liquid: Composition
     drawn: int | None
-
-
-def row_column(name: str) -> tuple[int, int]:
-    """``"B12"`` -> ``(1, 11)``; names that are not of this form count as the first well."""
-    letters = name.rstrip("0123456789")
-    digits = name[len(letters) :]
-    row = 0
-    for letter in letters.upper():
-        if not "A" <= letter <= "Z":
-            return (0, 0)
-        row = row * 26 + ord(letter) - ord("A") + 1
-    return (max(row - 1, 0), int(digits) - 1 if digits else 0)

@@ -47,7 +47,8 @@ class Intervention:
 
 Words = Mapping[str, Sequence[str]]
 """By topic: ``plate``, ``trough``, ``tips`` and ``covers`` (lids, seals, gloves) are things;
-``replace``, ``new``, ``away``, ``back``, ``refill`` and ``shake`` are what is done with them."""
+``replace``, ``new``, ``away``, ``back``, ``refill`` and ``shake`` are what is done with them; a
+rack called ``half`` loaded has every other tip."""
 
 
 def topics_in(text: str, words: Words) -> set[str]:

@@ -41,13 +41,15 @@ class Plates:
 
     def well(self, ref: WellRef) -> Well:
         """The well of this name on the plate that stands there now."""
-        key = (ref.labware, self._generation[ref.labware], ref.name)
+        key = (ref.labware, self._generation.get(ref.labware, 0), ref.name)
         well = self._known.get(key)
         if well is None:
             labware = self._labware.get(ref.labware)
             info = labware.wells.get(ref.name) if labware else None
             capacity = info.max_volume if info and info.max_volume > 0 else math.inf
             geometry = self._geometry(info) if info else None
+            if geometry and 100 * capacity < geometry.brim:  # written in mL: 22 for a trough
+                capacity = geometry.brim
             well = self._known[key] = Well(ref, key[1], capacity, geometry)
             well.runs_through = ref.labware in self._runs_through
             if self._prefilled(ref) and not well.runs_through:

@@ -19,7 +19,8 @@ from typing import TypeVar
 
 from ...instrumentation import OperationKind
 from ...vocabulary import WellRef
-from .model import Visit, row_column
+from .geometry import row_column
+from .model import Visit
 from .trace import Trace
 
 _WORDS = {

@@ -1,67 +1,11 @@
-"""Tips: what each has met and holds, and which one is on which nozzle."""
+"""Which tip is on which nozzle, and where the others stand."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
 
-from ...instrumentation import expel
 from ...vocabulary import WellRef
-from .geometry import Contact
-from .model import Layer, Visit, Well
-
-
-@dataclass(eq=False, slots=True)
-class Met:
-    """First contact of a tip with one liquid or one well; ``wet``: index of the first wet one."""
-
-    well: Well
-    line: int | None
-    caller: int | None
-    index: int
-    wet: float
-
-    def contact(self, index: float = math.inf) -> Contact:
-        """How surely the tip had met it by this index."""
-        return Contact.WET if self.wet <= index else Contact.NEAR
-
-
-@dataclass(eq=False, slots=True)
-class Tip:
-    """One tip from its first pick-up on; a returned tip goes on with the same history.
-
-    Attributes:
-        number: Counts the tips of a run.
-        session: Counts this tip's pick-ups.
-        layers: Liquid and air in it, drawn last stands last.
-        origins: Each liquid it has met, with the first contact, in that order.
-        touched: Each well it has touched, with the first contact, in that order.
-        visits: Everything it did, in order.
-        unsure: µL of its liquid that may be air: drawn from a well beyond what that held.
-    """
-
-    number: int
-    session: int = 0
-    layers: list[Layer] = field(default_factory=list)
-    origins: dict[Well, Met] = field(default_factory=dict)
-    touched: dict[Well, Met] = field(default_factory=dict)
-    visits: list[Visit] = field(default_factory=list)
-    unsure: float = 0.0
-
-    def touch(self, visit: Visit, contact: Contact = Contact.WET) -> None:
-        """The tip's outside met the well: it now carries all that the well holds."""
-        well, line, caller, index = visit.well, visit.line, visit.caller, visit.index
-        wet = index if contact is Contact.WET else math.inf
-        met = self.touched.setdefault(well, Met(well, line, caller, index, wet))
-        met.wet = min(met.wet, wet)
-        for origin in well.contents:
-            known = self.origins.setdefault(origin, Met(well, line, caller, index, wet))
-            known.wet = min(known.wet, wet)
-
-    def pop(self, volume: float = math.inf) -> list[Layer]:
-        """Give off ``volume`` µL, air included; the air is not listed."""
-        return [one for one in expel(self.layers, volume) if one.source is not None]
+from .model import Tip
 
 
 class TipBox:

@@ -9,8 +9,7 @@ from functools import cached_property
 
 from ...instrumentation import Event, LabwareInfo, Operation, OperationKind
 from ...vocabulary import WellRef
-from .model import Transfer, Visit, Well
-from .tips import Tip
+from .model import Tip, Transfer, Visit, Well
 
 PlaceKey = tuple[str, int, str]
 """Labware key, generation of the plate, well name."""
@@ -91,6 +90,7 @@ class Trace:
         callers: By line of a function that did something, the lines that called the function.
         log: What all this was read from.
         beside: Each time that tips stood over no well, as told.
+        in_pairs: By pipette, the labware over which only every other tip has a well of its own.
         overdrawn: Wells from which more was drawn than they can hold, with the first such draw.
     """
 
@@ -108,6 +108,12 @@ class Trace:
     log: Sequence[Operation | Event] = ()
     beside: list[Beside] = field(default_factory=list)
     overdrawn: dict[Well, Visit] = field(default_factory=dict)
+    in_pairs: dict[str, set[str]] = field(default_factory=dict)
+
+    @cached_property
+    def mixes(self) -> bool:
+        """Whether the run calls for a mix anywhere."""
+        return any(isinstance(step, Operation) and step.mixing for step in self.log)
 
     @cached_property
     def links(self) -> Sequence[Transfer]:

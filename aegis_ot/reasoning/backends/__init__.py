@@ -1,9 +1,9 @@
 """Where answers come from: services, recordings, scripts. Door: :func:`make_backend`."""
 
+from ...vocabulary.opinions import MODEL_FORMS
 from .anthropic_api import AnthropicBackend
 from .exporting import ExportBackend
 from .naming import (
-    MODEL_FORMS,
     MODEL_VARIABLE,
     make_backend,
     model_from_environment,
@@ -12,9 +12,9 @@ from .naming import (
 )
 from .openai_api import OpenAIBackend
 from .recording import RecordingBackend, ReplayBackend
-from .retrying import Clock, Patience
+from .retrying import Clock, RetryPolicy
 from .scripted import ScriptedBackend
-from .service import Manner
+from .service import RequestOptions
 
 __all__ = [
     "MODEL_FORMS",
@@ -22,11 +22,11 @@ __all__ = [
     "AnthropicBackend",
     "Clock",
     "ExportBackend",
-    "Manner",
     "OpenAIBackend",
-    "Patience",
     "RecordingBackend",
     "ReplayBackend",
+    "RequestOptions",
+    "RetryPolicy",
     "ScriptedBackend",
     "make_backend",
     "model_from_environment",

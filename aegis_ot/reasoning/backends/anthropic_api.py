@@ -13,8 +13,8 @@ from collections.abc import Mapping
 from typing import Any
 
 from ...errors import ConfigurationError
-from ..backend import Message, Picture, Request, Usage
-from .service import Manner, ServiceBackend, Written, count
+from ..backend import Message, PromptPicture, Request, TokenUsage
+from .service import RequestOptions, ServiceBackend, Written, count
 
 KEY_VARIABLES = ("ANTHROPIC_API_KEY",)
 STRUCTURED = ("tool", "output")
@@ -39,7 +39,7 @@ class AnthropicBackend(ServiceBackend):
         base_url: str | None = None,
         structured: str | None = None,
         key_variables: tuple[str, ...] | None = None,
-        manner: Manner | None = None,
+        manner: RequestOptions | None = None,
     ) -> None:
         self._structured = structured or "tool"
         if self._structured not in STRUCTURED:
@@ -50,7 +50,12 @@ class AnthropicBackend(ServiceBackend):
         self._base_url = base_url
         name = f"anthropic:{model}" + (f"@{base_url}" if base_url else "")
         super().__init__(
-            name, model, "Anthropic", key_variables or KEY_VARIABLES, True, manner or Manner()
+            name,
+            model,
+            "Anthropic",
+            key_variables or KEY_VARIABLES,
+            True,
+            manner or RequestOptions(),
         )
 
     def _connect(self, sdk: Any, key: str, common: Mapping[str, Any]) -> Any:
@@ -93,7 +98,7 @@ class AnthropicBackend(ServiceBackend):
         return Written(
             model=str(getattr(answer, "model", None) or ""),
             text=json.dumps(calls[0], ensure_ascii=False) if calls else said,
-            usage=Usage(
+            usage=TokenUsage(
                 count(usage, "input_tokens"),
                 count(usage, "cache_read_input_tokens"),
                 count(usage, "cache_creation_input_tokens"),
@@ -121,7 +126,7 @@ def _message(message: Message) -> dict[str, Any]:
                 "data": base64.b64encode(part.data).decode("ascii"),
             },
         }
-        if isinstance(part, Picture)
+        if isinstance(part, PromptPicture)
         else {"type": "text", "text": part}
         for part in message.parts
     ]

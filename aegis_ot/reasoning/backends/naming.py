@@ -14,15 +14,16 @@ from urllib.parse import parse_qsl, urlsplit
 
 from ...errors import ConfigurationError
 from ...vocabulary import one_line
+from ...vocabulary.opinions import MODEL_FORMS
 from ..backend import Backend
 from .anthropic_api import AnthropicBackend
 from .exporting import ExportBackend
 from .keys import without
 from .openai_api import PROFILES, OpenAIBackend
 from .recording import RecordingBackend, ReplayBackend
-from .retrying import Patience
+from .retrying import RetryPolicy
 from .scripted import ScriptedBackend
-from .service import Manner
+from .service import RequestOptions
 
 MODEL_VARIABLE = "AEGIS_OT_MODEL"
 RECORD_VARIABLE = "AEGIS_OT_MODEL_RECORD"
@@ -34,9 +35,6 @@ _OPTIONS = {
     "export": set(),
 }
 _FILES = {"replay", "scripted", "export"}
-MODEL_FORMS = (
-    "anthropic:MODEL, openai:MODEL, openai:MODEL@URL, replay:FOLDER, scripted:FILE, export:FILE"
-)
 
 
 def record_from_environment(environ: Mapping[str, str] | None = None) -> Path | None:
@@ -99,10 +97,10 @@ def _service(
     kind: str, rest: str, options: dict[str, str], timeout_s: float | None, trust_env: bool
 ) -> Backend:
     model, url = _split_url(rest)
-    manner = Manner(
-        patience=Patience(
-            timeout_s=_number(options, "timeout", timeout_s or Patience.timeout_s),
-            attempts=_count(options, "attempts", 100) or Patience.attempts,
+    manner = RequestOptions(
+        patience=RetryPolicy(
+            timeout_s=_number(options, "timeout", timeout_s or RetryPolicy.timeout_s),
+            attempts=_count(options, "attempts", 100) or RetryPolicy.attempts,
         ),
         temperature=_number(options, "temperature", 0.0) if "temperature" in options else None,
         trust_env=trust_env,

@@ -15,9 +15,9 @@ from typing import Any
 from urllib.parse import urlsplit
 
 from ...errors import ConfigurationError
-from ..backend import Message, Picture, Request, Usage
+from ..backend import Message, PromptPicture, Request, TokenUsage
 from .keys import GENERIC
-from .service import Manner, ServiceBackend, Written, count, member
+from .service import RequestOptions, ServiceBackend, Written, count, member
 
 STRUCTURED = ("json_schema", "tool", "guided_json", "json_object")
 LIMITS = ("max_tokens", "max_completion_tokens")
@@ -78,7 +78,7 @@ class OpenAIBackend(ServiceBackend):
         structured: str | None = None,
         limit: str | None = None,
         key_variables: tuple[str, ...] | None = None,
-        manner: Manner | None = None,
+        manner: RequestOptions | None = None,
     ) -> None:
         self._base_url = base_url or _OPENAI
         host = urlsplit(self._base_url).hostname or self._base_url
@@ -101,7 +101,7 @@ class OpenAIBackend(ServiceBackend):
             host,
             key_variables or profile.keys,
             profile.needs_key or key_variables is not None,
-            manner or Manner(),
+            manner or RequestOptions(),
         )
 
     def _connect(self, sdk: Any, key: str, common: Mapping[str, Any]) -> Any:
@@ -166,7 +166,7 @@ class OpenAIBackend(ServiceBackend):
         return Written(
             model=str(getattr(answer, "model", None) or ""),
             text=str(calls[0].function.arguments if calls else message.content or ""),
-            usage=Usage(prompt - cached, cached, 0, count(usage, "completion_tokens")),
+            usage=TokenUsage(prompt - cached, cached, 0, count(usage, "completion_tokens")),
             refusal=str(refusal or "") if refusal or stop == "content_filter" else None,
             is_cut=stop == "length",
         )
@@ -178,7 +178,7 @@ def _message(message: Message) -> dict[str, Any]:
         return {"role": message.role, "content": "\n\n".join(map(str, message.parts))}
     content: list[dict[str, Any]] = []
     for part in message.parts:
-        if isinstance(part, Picture):
+        if isinstance(part, PromptPicture):
             data = base64.b64encode(part.data).decode("ascii")
             url = f"data:{part.media_type};base64,{data}"
             content.append({"type": "image_url", "image_url": {"url": url}})

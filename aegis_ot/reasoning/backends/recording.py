@@ -17,7 +17,7 @@ from typing import Any
 
 from ...errors import ConfigurationError
 from ...vocabulary import one_line
-from ..backend import Backend, Picture, Reply, Request, State, Usage
+from ..backend import Backend, PromptPicture, Reply, Request, State, TokenUsage
 from ..schema import read_answer
 
 FORMAT = 1
@@ -130,7 +130,7 @@ def _so_far(folder: Path, key: str) -> dict[str, Any]:
         return {}
 
 
-def keep_picture(folder: Path, picture: Picture) -> str:
+def keep_picture(folder: Path, picture: PromptPicture) -> str:
     """Write a picture once; returns its path relative to ``folder``."""
     name = f"images/{picture.sha256}{_SUFFIX.get(picture.media_type, '.bin')}"
     path = folder / name
@@ -222,14 +222,14 @@ def _reply(answer: Mapping[str, Any], request: Request) -> Reply:
     return Reply(State.ANSWERED, model, value, "", usage, took, 0, raw)
 
 
-def _usage(counts: Mapping[str, Any]) -> Usage:
+def _usage(counts: Mapping[str, Any]) -> TokenUsage:
     def count(name: str) -> int:
         value = counts.get(name)
         if isinstance(value, int) and not isinstance(value, bool) and value >= 0:
             return value
         return 0
 
-    return Usage(count("input"), count("cached"), count("cache_written"), count("output"))
+    return TokenUsage(count("input"), count("cached"), count("cache_written"), count("output"))
 
 
 def read_entry(folder: Path, key: str) -> dict[str, Any] | None:

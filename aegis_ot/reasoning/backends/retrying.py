@@ -15,11 +15,11 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-from ..backend import Reply, State, Usage
+from ..backend import Reply, State, TokenUsage
 
 
 @dataclass(frozen=True)
-class Patience:
+class RetryPolicy:
     """How long and how often to ask.
 
     Attributes:
@@ -36,7 +36,7 @@ class Patience:
 
 
 @dataclass
-class Trouble(Exception):
+class BackendError(Exception):
     """One failed try.
 
     Attributes:
@@ -52,7 +52,7 @@ class Trouble(Exception):
     detail: str
     again: bool = False
     wait_s: float | None = None
-    usage: Usage = field(default_factory=Usage)
+    usage: TokenUsage = field(default_factory=TokenUsage)
     raw: str = ""
 
 
@@ -77,25 +77,25 @@ class Clock:
 
 
 def ask_patiently(
-    attempt: Callable[[float], Reply], model: str, patience: Patience, clock: Clock
+    attempt: Callable[[float], Reply], model: str, patience: RetryPolicy, clock: Clock
 ) -> Reply:
     """Call ``attempt`` with the seconds left until it answers or nothing more helps.
 
     Args:
-        attempt: Gives a reply, or raises :class:`Trouble`.
+        attempt: Gives a reply, or raises :class:`BackendError`.
         model: For the reply.
         patience: How long and how often.
         clock: Time.
     """
     start = clock.now()
-    usage = Usage()
+    usage = TokenUsage()
     tries = 0
     while True:
         tries += 1
         left = patience.timeout_s - (clock.now() - start)
         try:
             reply = _in_time(attempt, max(left, 0.001))
-        except Trouble as trouble:
+        except BackendError as trouble:
             usage = usage + trouble.usage
             wait = trouble.wait_s
             if wait is None:
@@ -141,7 +141,7 @@ def _in_time(attempt: Callable[[float], Reply], left: float) -> Reply:
     thread.start()
     thread.join(left + _GRACE)
     if not outcome:
-        raise Trouble(State.TIMEOUT, "The service did not finish its answer in time.")
+        raise BackendError(State.TIMEOUT, "The service did not finish its answer in time.")
     if isinstance(outcome[0], Reply):
         return outcome[0]
     raise outcome[0]
@@ -167,21 +167,21 @@ def retry_after(headers: Mapping[str, str] | Any) -> float | None:
 
 def trouble_of_status(
     service: str, status: int, message: str, headers: Mapping[str, str] | Any
-) -> Trouble:
+) -> BackendError:
     """What an HTTP status other than 200 means."""
     said = f" ({message})" if message else ""
     if status in (401, 403):
-        return Trouble(State.UNAUTHORIZED, f"{service} refused the key, HTTP {status}{said}.")
+        return BackendError(State.UNAUTHORIZED, f"{service} refused the key, HTTP {status}{said}.")
     if status == 429:
-        return Trouble(
+        return BackendError(
             State.RATE_LIMITED, f"{service} limits the rate{said}.", True, retry_after(headers)
         )
     if status in (408, 409) or status >= 500:
         # 529 is Anthropic's "overloaded".
-        return Trouble(
+        return BackendError(
             State.UNAVAILABLE,
             f"{service} is not available, HTTP {status}{said}.",
             True,
             retry_after(headers),
         )
-    return Trouble(State.BAD_REQUEST, f"{service} cannot serve this, HTTP {status}{said}.")
+    return BackendError(State.BAD_REQUEST, f"{service} cannot serve this, HTTP {status}{said}.")

@@ -6,7 +6,7 @@ import json
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
-from ..backend import Reply, Request, State, Usage
+from ..backend import Reply, Request, State, TokenUsage
 from ..schema import read_answer
 
 Answer = Mapping[str, Any] | State | str | Reply
@@ -28,10 +28,10 @@ class ScriptedBackend:
     def __init__(
         self,
         answers: Iterable[Answer] | Callable[[Request], Answer],
-        usage: Usage | None = None,
+        usage: TokenUsage | None = None,
     ) -> None:
         self._answers = answers if callable(answers) else iter(list(answers))
-        self._usage = usage or Usage()
+        self._usage = usage or TokenUsage()
         self.requests: list[Request] = []
 
     def ask(self, request: Request) -> Reply:

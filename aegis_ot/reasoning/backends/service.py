@@ -13,14 +13,14 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from ...vocabulary import one_line
-from ..backend import Reply, Request, State, Usage
+from ..backend import Reply, Request, State, TokenUsage
 from ..schema import read_answer
 from .keys import is_sendable, key_from, without
-from .retrying import Clock, Patience, Trouble, ask_patiently, trouble_of_status
+from .retrying import BackendError, Clock, RetryPolicy, ask_patiently, trouble_of_status
 
 
 @dataclass(frozen=True)
-class Manner:
+class RequestOptions:
     """How to ask, whoever is asked.
 
     Attributes:
@@ -34,7 +34,7 @@ class Manner:
     """
 
     key: str | None = field(default=None, repr=False)
-    patience: Patience = field(default_factory=Patience)
+    patience: RetryPolicy = field(default_factory=RetryPolicy)
     temperature: float | None = None
     trust_env: bool = True
     clock: Clock = field(default_factory=Clock)
@@ -55,7 +55,7 @@ class Written:
 
     model: str
     text: str
-    usage: Usage
+    usage: TokenUsage
     refusal: str | None = None
     is_cut: bool = False
 
@@ -82,7 +82,7 @@ class ServiceBackend(ABC):
         service: str,
         key_variables: tuple[str, ...],
         needs_key: bool,
-        manner: Manner,
+        manner: RequestOptions,
     ) -> None:
         self.name = name
         self.model = model
@@ -101,7 +101,7 @@ class ServiceBackend(ABC):
         try:
             # Loading an SDK takes a second or more, which is not the service's.
             sdk = _sdk(self.package)
-        except Trouble as trouble:
+        except BackendError as trouble:
             return self._without_asking(trouble.state, trouble.detail)
         return ask_patiently(
             lambda left: self._attempt(sdk, request, key, left),
@@ -151,12 +151,12 @@ class ServiceBackend(ABC):
             written = self._take_apart(self._send(self._client, request, left))
         except sdk.APITimeoutError:
             patience_s = self._manner.patience.timeout_s
-            raise Trouble(
+            raise BackendError(
                 State.TIMEOUT, f"{self._service} gave no answer in {patience_s:g} s."
             ) from None
         except sdk.APIConnectionError as error:
             cause = type(error.__cause__ or error).__name__
-            raise Trouble(
+            raise BackendError(
                 State.UNAVAILABLE, f"{self._service} cannot be reached ({cause}).", True
             ) from None
         except sdk.APIStatusError as error:
@@ -167,7 +167,7 @@ class ServiceBackend(ABC):
         except Exception as error:
             # SDKs hand on what a server sends without looking at it: anything may come up.
             said = one_line(without(key, str(error)))
-            raise Trouble(
+            raise BackendError(
                 State.INVALID, f"{self._service}: {type(error).__name__}: {said}"
             ) from None
         return self._judged(request, written)
@@ -193,7 +193,7 @@ class ServiceBackend(ABC):
             value, problem = read_answer(raw, request.schema)
             problem = f"{model} gave an answer that cannot be used: {problem}."
         if value is None:
-            raise Trouble(state, problem, usage=usage, raw=raw)
+            raise BackendError(state, problem, usage=usage, raw=raw)
         return Reply(State.ANSWERED, model, value, usage=usage, raw=raw)
 
 
@@ -201,7 +201,7 @@ def _sdk(package: str) -> Any:
     try:
         return importlib.import_module(package)
     except ImportError as error:
-        raise Trouble(
+        raise BackendError(
             State.UNAVAILABLE,
             f"The package {error.name!r} is not installed; pip install 'aegis-ot[llm]'.",
         ) from None

@@ -4,8 +4,9 @@ Door: :func:`open_camera` for one, :func:`open_cameras` for all that the setting
 """
 
 from .bound import BoundCameras
-from .freerunning import FreeRunning, Health, Raw, Source
+from .freerunning import FreeRunning, Health, Source
 from .health import camera_health
+from .raw import Raw
 from .registry import open_camera, open_cameras
 
 __all__ = [

@@ -65,6 +65,11 @@ class BoundCameras:
         """A run is one of the robot of this name."""
         self._robots[run] = robot
 
+    def of_run(self, run: str) -> Camera | None:
+        """The first camera that looks at the robot of this run."""
+        robot = self._robots.get(run, "")
+        return next((one.camera for one in self._cameras if one.robot in ("", robot)), None)
+
     def announce(self, keyframe: Keyframe) -> None:
         """Choose the camera for this thread's next frame."""
         robot = self._robots.get(keyframe.run, "")

@@ -16,7 +16,7 @@ from ...errors import CameraError
 from ...vision.types import Image
 from ...vocabulary import without_secrets
 from ..config import CameraSettings
-from .freerunning import Raw
+from .raw import Raw
 
 _MANUAL, _AUTOMATIC = 1, 3
 """What V4L2 calls the two modes of exposure."""

@@ -12,10 +12,9 @@ from typing import Protocol
 
 from ...errors import CameraError
 from ...vision.camera import SIMULATED_KINDS, Frame
-from ...vision.types import Image
 from ...vocabulary import Keyframe
-from .codec import decode_jpeg, encode_jpeg
-from .history import History
+from .history import CLIP_EVERY_S, History
+from .raw import Raw
 
 log = logging.getLogger(__name__)
 
@@ -25,18 +24,6 @@ FIRST_PAUSE = 0.25
 LONGEST_PAUSE = 5.0
 STALE = 5.0
 """A camera that gave nothing for so long is not well, s."""
-
-
-@dataclass(frozen=True)
-class Raw:
-    """A frame as it came: ``jpeg`` or ``image`` is given, the other is made when it is wanted.
-
-    ``exposed_at``: when its exposure began, ``time.monotonic``, s.
-    """
-
-    exposed_at: float
-    jpeg: bytes | None = None
-    image: Image | None = None
 
 
 class Source(Protocol):
@@ -74,6 +61,7 @@ class FreeRunning:
         self._open_source = open_source
         self._ring: deque[Raw] = deque(maxlen=RING)
         self._history: History | None = None
+        self._recent = History(CLIP_EVERY_S)
         self._news = threading.Condition()
         self._closed = threading.Event()
         self._trouble = ""
@@ -97,7 +85,7 @@ class FreeRunning:
         spoiled = 0
         while (raw := self._next(tried, first, deadline)) is not None:
             try:
-                return replace(_finish(raw), simulated=self.kind in SIMULATED_KINDS)
+                return replace(raw.finished(), simulated=self.kind in SIMULATED_KINDS)
             except CameraError as error:
                 log.warning("Camera %s: %s", self.kind, error)
                 self.undecodable += 1
@@ -109,6 +97,11 @@ class FreeRunning:
         """From now on keep frames for moments that are told of late (watch mode)."""
         with self._news:
             self._history = self._history or History()
+
+    def recent(self) -> list[Raw]:
+        """The last seconds, a few frames each, for a clip."""
+        with self._news:
+            return list(self._recent)
 
     def health(self) -> Health:
         """Whether frames are coming."""
@@ -180,8 +173,12 @@ class FreeRunning:
             pause = min(2 * pause, LONGEST_PAUSE)
 
     def _put(self, raw: Raw) -> None:
+        # Encoded before anybody has to wait for it; this thread alone puts frames in.
+        kept = raw.encoded() if self._recent.wants(raw) else None
         with self._news:
             self._ring.append(raw)
+            if kept is not None:
+                self._recent.put(kept)
             if self._history is not None:
                 self._history.put(raw)
             self._last_frame = time.monotonic()
@@ -194,12 +191,3 @@ class FreeRunning:
             if text != self._trouble:
                 log.warning("Camera %s: %s", self.kind, text)
             self._trouble = text
-
-
-def _finish(raw: Raw) -> Frame:
-    if raw.jpeg is not None:
-        image = decode_jpeg(raw.jpeg) if raw.image is None else raw.image
-        return Frame(raw.jpeg, image, raw.exposed_at)
-    if raw.image is None:
-        raise CameraError("an empty frame")
-    return Frame(encode_jpeg(raw.image), raw.image, raw.exposed_at)

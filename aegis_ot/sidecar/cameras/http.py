@@ -16,8 +16,9 @@ from email.message import Message
 from typing import Any
 
 from ...errors import CameraError
+from ...settings import load_settings
 from ...vocabulary import without_secrets
-from .freerunning import Raw
+from .raw import Raw
 
 SOCKET_TIMEOUT = 5.0
 """A camera that sends nothing for so long is opened again, s."""
@@ -38,11 +39,11 @@ class HttpSource:
     other host sees them, for no redirect to one is followed.
 
     No such camera tells when it exposed a picture, so it is dated by what is certain. A picture of
-    a stream began to arrive at a known moment, and had waited no longer than the longest pause
-    between pictures lately (``latency`` at least): a camera that hands on its last picture but
-    one, and one whose pictures pile up on their way, are both waited out. A single picture that
-    differs from the one before was made after the last request that still got that one. A picture
-    that comes again is no new one.
+    a stream began to arrive at a known moment, ``latency`` at most after its exposure began, and
+    had waited no longer than the longest pause between pictures lately: a camera that hands on
+    its last picture but one, and one whose pictures pile up on their way, are both waited out. A
+    single picture that differs from the one before was made after the last request that still got
+    that one. A picture that comes again is no new one.
 
     Args:
         url: ``http://`` or ``https://``.
@@ -56,11 +57,12 @@ class HttpSource:
 
     def __init__(self, url: str, latency: float, robot: bool = False) -> None:
         self._request, self.shown = _request(url)
+        self._robot = robot
         if robot:
             self._request.method = "POST"
-            self._request.add_header("Opentrons-Version", "*")
+            for name, value in load_settings().robot_headers().items():
+                self._request.add_header(name, value)
         self._latency = latency
-        self._robot = robot
         self._pace = Pace()
         self._last: bytes | None = None
         self._stop = threading.Event()
@@ -101,7 +103,10 @@ class HttpSource:
             answer: http.client.HTTPResponse = _OPENER.open(self._request, timeout=SOCKET_TIMEOUT)
         except urllib.error.HTTPError as error:
             error.close()
-            raise CameraError(f"{self.shown} answers with status {error.code}.") from error
+            told = f"{self.shown} answers with status {error.code}."
+            if self._robot and error.code in (401, 403):
+                told += " Its access is controlled: give its token as AEGIS_OT_ROBOT_TOKEN."
+            raise CameraError(told) from error
         except (OSError, http.client.HTTPException, ValueError) as error:
             raise CameraError(f"{self.shown} cannot be reached: {_reason(error)}") from error
         return answer
@@ -135,7 +140,7 @@ class HttpSource:
             data = data[:-2] if data.endswith(b"\r\n") else data
         if _picture(data) != self._last:
             self._pace.next(began)
-        return Raw(began - max(self._latency, self._pace.longest_s), jpeg=data)
+        return Raw(began - self._latency - self._pace.longest_s, jpeg=data)
 
     def _until(self, mark: bytes) -> bytes:
         start = 0

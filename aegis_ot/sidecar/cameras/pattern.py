@@ -8,7 +8,7 @@ import time
 import numpy as np
 
 from .codec import encode_jpeg
-from .freerunning import Raw
+from .raw import Raw
 
 WIDTH, HEIGHT = 640, 480
 DISTINCT = 30

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import cast
 
 from ...errors import AegisError, ConfigurationError
 from ...vision.camera import Camera
@@ -37,35 +37,87 @@ def open_camera(settings: CameraSettings) -> Camera:
     """
     spec = settings.spec.strip()
     kind, _, rest = spec.partition(":")
-    address = rest.startswith("//") and len(rest) > 2
-    number = kind == "usb" and rest.isdecimal() and len(rest) <= 3
-    if number or (kind == "usb" and rest.startswith("/")):
-        which = int(rest) if number else rest
-        latency = _latency(settings, USB_LATENCY)
-        return FreeRunning("usb", lambda: UsbSource(which, settings, latency))
-    if kind in ("rtsp", "rtsps") and address:
-        latency = _latency(settings, RTSP_LATENCY)
-        return FreeRunning("rtsp", lambda: RtspSource(spec, latency))
-    if kind in ("http", "https") and address:
-        latency = _latency(settings, HTTP_LATENCY)
-        return FreeRunning("http", lambda: HttpSource(spec, latency))
-    if kind == "robot" and rest.startswith(("http://", "https://")):
-        latency = _latency(settings, HTTP_LATENCY)
-        url = f"{rest.rstrip('/')}/camera/picture"
-        return FreeRunning("robot", lambda: HttpSource(url, latency, robot=True))
-    if kind == "folder" and rest:
-        return FolderCamera(Path(rest).expanduser())
-    if kind == "video" and rest:
-        return FreeRunning("video", lambda: VideoSource(Path(rest).expanduser()))
-    if spec == "pattern":
-        from .pattern import PatternSource
+    opener = OPENERS.get(kind)
+    camera = opener(spec, rest, settings) if opener else None
+    if camera is None:
+        raise ConfigurationError(
+            f"There is no camera called {without_secrets(settings.spec)!r}; use {NAMES}."
+        )
+    return camera
 
-        return FreeRunning("pattern", lambda: PatternSource(settings.fps))
-    if spec == "simulated":
-        return _simulated()
-    raise ConfigurationError(
-        f"There is no camera called {without_secrets(settings.spec)!r}; use {NAMES}."
-    )
+
+def _usb(spec: str, rest: str, settings: CameraSettings) -> Camera | None:
+    number = rest.isdecimal() and len(rest) <= 3
+    if not (number or rest.startswith("/")):
+        return None
+    which = int(rest) if number else rest
+    latency = _latency(settings, USB_LATENCY)
+    return FreeRunning("usb", lambda: UsbSource(which, settings, latency))
+
+
+def _rtsp(spec: str, rest: str, settings: CameraSettings) -> Camera | None:
+    if not _is_address(rest):
+        return None
+    latency = _latency(settings, RTSP_LATENCY)
+    return FreeRunning("rtsp", lambda: RtspSource(spec, latency))
+
+
+def _http(spec: str, rest: str, settings: CameraSettings) -> Camera | None:
+    if not _is_address(rest):
+        return None
+    latency = _latency(settings, HTTP_LATENCY)
+    return FreeRunning("http", lambda: HttpSource(spec, latency))
+
+
+def _robot(spec: str, rest: str, settings: CameraSettings) -> Camera | None:
+    if not rest.startswith(("http://", "https://")):
+        return None
+    latency = _latency(settings, HTTP_LATENCY)
+    url = f"{rest.rstrip('/')}/camera/picture"
+    return FreeRunning("robot", lambda: HttpSource(url, latency, robot=True))
+
+
+def _folder(spec: str, rest: str, settings: CameraSettings) -> Camera | None:
+    return FolderCamera(Path(rest).expanduser()) if rest else None
+
+
+def _video(spec: str, rest: str, settings: CameraSettings) -> Camera | None:
+    if not rest:
+        return None
+    return FreeRunning("video", lambda: VideoSource(Path(rest).expanduser()))
+
+
+def _pattern(spec: str, rest: str, settings: CameraSettings) -> Camera | None:
+    if spec != "pattern":
+        return None
+    from .pattern import PatternSource
+
+    return FreeRunning("pattern", lambda: PatternSource(settings.fps))
+
+
+def _simulated(spec: str, rest: str, settings: CameraSettings) -> Camera | None:
+    if spec != "simulated":
+        return None
+    from ...simulation import SimulatedCamera
+
+    return SimulatedCamera()
+
+
+Opener = Callable[[str, str, CameraSettings], "Camera | None"]
+OPENERS: Mapping[str, Opener] = {
+    "usb": _usb,
+    "http": _http,
+    "https": _http,
+    "rtsp": _rtsp,
+    "rtsps": _rtsp,
+    "folder": _folder,
+    "video": _video,
+    "robot": _robot,
+    "pattern": _pattern,
+    "simulated": _simulated,
+}
+"""By what stands before the first colon: opens from the whole name and what follows that colon;
+``None`` where it makes no sense."""
 
 
 def open_cameras(config: SidecarConfig) -> Camera:
@@ -91,10 +143,5 @@ def _latency(settings: CameraSettings, usual: float) -> float:
     return usual if settings.latency_s is None else settings.latency_s
 
 
-def _simulated() -> Camera:
-    from ... import simulation
-
-    make = getattr(simulation, "SimulatedCamera", None)
-    if make is None:
-        raise ConfigurationError("This installation has no simulated camera.")
-    return cast(Camera, make())
+def _is_address(rest: str) -> bool:
+    return rest.startswith("//") and len(rest) > 2

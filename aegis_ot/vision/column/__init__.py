@@ -1,8 +1,8 @@
 """The liquid column in a tip, measured along the tip's axis in frame coordinates."""
 
-from .axis import rectify
-from .contrast import WetAndDry, Wetness
-from .evidence import Dye, EmptyColour, combine, mean_dye
+from .axis import nozzle_shift, rectify
+from .contrast import Deliveries, WetAndDry, Wetness
+from .evidence import DyeColour, EmptyColour, combine, mean_dye
 from .learning import learn_run, learn_tip
 from .measure import (
     Reference,
@@ -11,16 +11,17 @@ from .measure import (
     expected_top,
     look_at_tip,
     look_beside,
-    measure_column,
+    read_column,
     shapes_of,
 )
-from .pair import column_left
+from .pair import at_one_place
 from .profile import TipProfile
 from .strip import TipShape
 from .trajectory import RunReference, Signs, TipModel, place, weigh
 
 __all__ = [
-    "Dye",
+    "Deliveries",
+    "DyeColour",
     "EmptyColour",
     "Reference",
     "RunReference",
@@ -31,8 +32,8 @@ __all__ = [
     "TipShape",
     "WetAndDry",
     "Wetness",
+    "at_one_place",
     "ceiling",
-    "column_left",
     "combine",
     "expected_top",
     "learn_run",
@@ -40,8 +41,9 @@ __all__ = [
     "look_at_tip",
     "look_beside",
     "mean_dye",
-    "measure_column",
+    "nozzle_shift",
     "place",
+    "read_column",
     "rectify",
     "shapes_of",
     "weigh",

@@ -46,7 +46,7 @@ def rectify(
     collar = np.array(detection.collar, dtype=np.float64)
     orifice = np.array(detection.orifice, dtype=np.float64)
     collar, orifice, clarity = onto_outline(image, collar, orifice, shape)
-    shift = _nozzle_shift(image, collar, orifice, shape)
+    shift = nozzle_shift(image, collar, orifice, shape)
     collar = collar + (orifice - collar) * (shift or 0.0)
     if length is not None:
         collar, orifice = _of_length(image, collar, orifice, shape, length)
@@ -73,7 +73,7 @@ def _of_length(
     along = orifice - collar
     along = along * (length / max(float(np.hypot(*along)), 1.0))
     choices = ((collar, collar + along), (orifice - along, orifice))
-    shift = [_nozzle_shift(image, top, end, shape) for top, end in choices]
+    shift = [nozzle_shift(image, top, end, shape) for top, end in choices]
     best = 1 if shift[0] is None and shift[1] is not None else 0
     step = along * (shift[best] or 0.0)
     return choices[best][0] + step, choices[best][1] + step
@@ -148,7 +148,7 @@ def _shifted(
     return collar + across * grid[best[0]], orifice + across * grid[best[1]], clarity
 
 
-def _nozzle_shift(image: Image, collar: Point, orifice: Point, shape: TipShape) -> float | None:
+def nozzle_shift(image: Image, collar: Point, orifice: Point, shape: TipShape) -> float | None:
     """How far down the axis the nozzle ends from where it should, tip lengths.
 
     ``None`` if no step within reach stands out from the noise.

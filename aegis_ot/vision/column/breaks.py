@@ -6,8 +6,6 @@ above the column, and a meniscus stands at either end of it, as a bright bar acr
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -23,34 +21,15 @@ _BRIGHT = 0.4
 """A column that is brighter than the empty tip by this much (log) guides light: its own
 ripples are bars too, and only a dip is a break."""
 
-
 _BAR_WEIGHT = 0.6
 """The highest of some fifty bars of noise is higher than the deepest of some fifty dips."""
 
 
-@dataclass(frozen=True)
-class Break:
-    """One break in a column.
+def strongest_break(profile: TipProfile, top: float) -> float | None:
+    """Signal over noise of the strongest break in a column that reaches from the orifice to ``top``
+    (u); how strong one has to be is for the caller to say, against normal columns.
 
-    Attributes:
-        top: Upper end, u (0 collar, 1 orifice).
-        bottom: Lower end, u.
-        depth: How far the brightness goes back to the empty tip's, 0 to 1; 0 where it was
-            found by its menisci alone.
-        strength: Signal over the noise within this column.
-    """
-
-    top: float
-    bottom: float
-    depth: float
-    strength: float
-
-
-def find_break(profile: TipProfile, top: float) -> Break | None:
-    """The strongest break of a column that reaches from the orifice up to ``top`` (u).
-
-    ``None`` where the column is too short to have one. A weak "break" is returned as well: how
-    strong it has to be is for the caller to say, against normal columns.
+    ``None`` where the column is too short to have one.
     """
     u = profile.u
     length = max(profile.length, 1.0)
@@ -59,9 +38,8 @@ def find_break(profile: TipProfile, top: float) -> Break | None:
     if int(inside.sum()) < 12:
         return None
     step = _brightness_step(profile, top, inside)
-    dips = _by_brightness(profile, step, inside)
-    bars = _by_menisci(profile, inside)
-    return dips if step > _BRIGHT or dips.strength > bars.strength else bars
+    dips, bars = _by_brightness(profile, step, inside), _by_menisci(profile, inside)
+    return dips if step > _BRIGHT else max(dips, bars)
 
 
 def lit(profile: TipProfile, top: float) -> bool:
@@ -77,12 +55,11 @@ def _brightness_step(profile: TipProfile, top: float, inside: Mask) -> float:
     return float(np.median(profile.brightness[inside]) - np.median(profile.brightness[above]))
 
 
-def _by_brightness(profile: TipProfile, step: float, inside: Mask) -> Break:
-    u, brightness = profile.u, profile.brightness.astype(np.float64)
-    rows = np.flatnonzero(inside)
-    best = Break(float(u[rows[0]]), float(u[rows[0]]), 0.0, 0.0)
+def _by_brightness(profile: TipProfile, step: float, inside: Mask) -> float:
+    brightness, rows = profile.brightness.astype(np.float64), np.flatnonzero(inside)
+    strongest = 0.0
     if abs(step) < 0.05:
-        return best
+        return strongest
     for width in _widths(profile):
         dip = -np.sign(step) * _against_flanks(brightness, width)
         noise = 1.48 * float(np.median(np.abs(dip[rows] - np.median(dip[rows])))) + 0.01
@@ -90,29 +67,17 @@ def _by_brightness(profile: TipProfile, step: float, inside: Mask) -> Break:
         behind = np.abs(_against_flanks(profile.background.astype(np.float64), width))
         behind = np.max([np.roll(behind, shift) for shift in (-2, 0, 2)], axis=0)
         near = dip[rows] - 1.2 * behind[rows]
-        row = int(rows[np.argmax(near)])
         depth = float(near.max() / abs(step))
         # A gap cannot be deeper than the tip is empty, and a ripple of a bright column is no
         # gap however quiet the column is.
         clear = float((near.max() - np.median(dip[rows])) / noise)
-        strength = clear * min(1.0, max(0.0, depth) / 0.4)
-        if strength > best.strength:
-            half = 0.5 * width * profile.pitch
-            best = Break(
-                float(u[row]) - half, float(u[row]) + half, float(np.clip(depth, 0, 1)), strength
-            )
-    return best
+        strongest = max(strongest, clear * min(1.0, max(0.0, depth) / 0.4))
+    return strongest
 
 
-def _by_menisci(profile: TipProfile, inside: Mask) -> Break:
+def _by_menisci(profile: TipProfile, inside: Mask) -> float:
     """Bars below the topmost one, where the column is not so bright that they mean nothing."""
-    u = profile.u
-    rows = np.flatnonzero(inside)
-    bars = profile.bar[rows]
-    row = int(rows[np.argmax(bars)])
-    strength = _BAR_WEIGHT * float(bars.max())
-    half = 2 * profile.pitch
-    return Break(float(u[row]) - half, float(u[row]) + half, 0.0, strength)
+    return _BAR_WEIGHT * float(profile.bar[inside].max())
 
 
 def _widths(profile: TipProfile) -> tuple[int, ...]:

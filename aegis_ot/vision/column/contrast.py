@@ -9,7 +9,7 @@ each row of another frame is asked which of them it looks like (Fisher's linear 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import cv2
 import numpy as np
@@ -20,6 +20,10 @@ from .strip import Array
 
 _MEMORY = 16
 """Frames that a template is made of."""
+
+_PAIRS, _AGREEING = 3, 0.3
+"""Wells from which what leaves the tip may be known, and what of it their median one seems to have
+kept at most, by the others."""
 
 _SMOOTH = 15
 """Rows over which the liquid's own look is smoothed: it changes slowly along the tip."""
@@ -77,6 +81,7 @@ class Wetness:
             this liquid shows before this camera.
         misfit: Typical squared distance of a row from all that lies between empty and filled,
             in variances: 1 where the tip was laid straight as in the other frames.
+        paired: Whether it is told by what changed since another frame at the same place.
     """
 
     u: Array
@@ -84,6 +89,7 @@ class Wetness:
     weight: NDArray[np.float64]
     power: float
     misfit: float = 1.0
+    paired: bool = False
 
     def mean(self, low: float, high: float) -> tuple[float, float]:
         """Weighted mean share of the rows between ``low`` and ``high`` (u), and their weight."""
@@ -109,6 +115,18 @@ class Wetness:
         best = int(ends[np.flatnonzero(below[ends] >= most - 1e-9)[-1]])
         return float(self.u[best]) if most > 0 else 1.0
 
+    def strongest(self, stray: float, shortest: float) -> float:
+        """Log-likelihood ratio of a column that reaches up from the orifice, of the likeliest of
+        those that are not shorter than ``shortest`` (u); 0 where all rows speak against one.
+
+        ``stray``: standard deviation by which all rows of one frame are off together.
+        """
+        weight = np.cumsum(self.weight[::-1])
+        share = np.cumsum((self.weight * self.share)[::-1]) / np.maximum(weight, 1e-9)
+        ratio = (share - 0.5) / (1.0 / np.maximum(weight, 1e-9) + stray**2)
+        told = ratio[(weight > 0) & (self.u[::-1] < 1.0 - shortest)]
+        return max(float(told.max(initial=0.0)), 0.0)
+
     def bracketed(self, end: float, reach: float) -> bool:
         """Whether most rows within ``reach`` of a column's end, above it and below, are known."""
         return self.known(end - reach, end) and self.known(end, end + reach)
@@ -118,17 +136,13 @@ class Wetness:
         rows = (self.u > low) & (self.u < high)
         return bool(rows.any()) and float((self.weight[rows] > 0).mean()) > 0.5
 
-    def longest_gap(self, low: float, high: float) -> tuple[float, float, float]:
-        """Strongest run of empty rows between ``low`` and ``high``: strength, its ends (u)."""
-        rows = np.flatnonzero((self.u > low) & (self.u < high))
-        best, ends, start, total = 0.0, (high, high), 0, 0.0
-        for place, row in enumerate(rows):
-            if total <= 0:
-                start, total = place, 0.0
-            total += float(self.weight[row] * (0.5 - self.share[row]))
-            if total > best:
-                best, ends = total, (float(self.u[rows[start]]), float(self.u[row]))
-        return best, ends[0], ends[1]
+    def longest_gap(self, low: float, high: float) -> float:
+        """Strength of the strongest run of empty rows between ``low`` and ``high`` (u)."""
+        best = total = 0.0
+        for row in np.flatnonzero((self.u > low) & (self.u < high)):
+            total = max(total, 0.0) + float(self.weight[row] * (0.5 - self.share[row]))
+            best = max(best, total)
+        return best
 
 
 @dataclass(frozen=True)
@@ -152,6 +166,8 @@ class WetAndDry:
     Rows are those of :class:`TipProfile`, the same for all tips of a class.
     """
 
+    _noise = NOISE
+
     def __init__(self) -> None:
         self._dry: list[Array] = []
         self._wet: list[Array] = []
@@ -162,8 +178,12 @@ class WetAndDry:
         seen = signals(profile)
         u = profile.u
         above = (u < top - margin) if top < 1.0 else np.ones(len(u), dtype=bool)
-        below = u > top + margin
-        for kept, rows in ((self._dry, above), (self._wet, below)):
+        self._keep(seen, above, seen, u > top + margin)
+
+    def _keep(
+        self, dry: Array, are_dry: NDArray[np.bool_], wet: Array, are_wet: NDArray[np.bool_]
+    ) -> None:
+        for kept, seen, rows in ((self._dry, dry, are_dry), (self._wet, wet, are_wet)):
             if rows.any() and (not kept or kept[0].shape == seen.shape):
                 kept.append(np.where(rows[:, None], seen, np.nan).astype(np.float32))
                 del kept[:-_MEMORY]
@@ -176,20 +196,23 @@ class WetAndDry:
 
     def read(self, profile: TipProfile, low: float, high: float = 0.985) -> Wetness | None:
         """How wet each row between ``low`` and ``high`` (u) is; ``None`` before one was learned."""
+        return self._compared(profile.u, signals(profile), low, high)
+
+    def _compared(self, u: Array, signs: Array, low: float, high: float) -> Wetness | None:
         self.prepare()
-        if self._templates is None or self._templates.dry.shape[0] != len(profile.u):
+        if self._templates is None or self._templates.dry.shape[0] != len(u):
             return None
         known = self._templates
-        inside = (profile.u > low) & (profile.u < high) & np.isfinite(known.power)
+        inside = (u > low) & (u < high) & np.isfinite(known.power)
         power = np.where(inside, known.power, 0.0)
-        seen = signals(profile) - known.dry
+        seen = signs - known.dry
         score = np.nan_to_num((known.weights * seen).sum(axis=1))
         share = np.where(power > 0, score / np.maximum(power, 0.5), 0.0)
         share = np.clip(share, -1.0, 2.0)
         rest = (seen - np.clip(share, 0.0, 1.0)[:, None] * known.change)[inside]
         off = np.einsum("ij,jk,ik->i", rest, known.precision, rest) / rest.shape[1]
         return Wetness(
-            profile.u,
+            u,
             share,
             np.minimum(power, _POWER_MOST) / _CORRELATED,
             float(np.median(known.power[inside])) if inside.any() else 0.0,
@@ -206,12 +229,69 @@ class WetAndDry:
         rest = rest[np.isfinite(rest).all(axis=1)].astype(np.float64)
         # A template made of few frames is itself uncertain.
         scatter = rest.T @ rest * (1.0 + 1.0 / max(spread, 1.0))
-        prior = np.diag(NOISE**2) * _NOISE_ROWS
+        prior = np.diag(self._noise**2) * _NOISE_ROWS
         scatter = (scatter + prior) / (len(rest) + _NOISE_ROWS)
         change = _smoothed(wet - dry)
         weights = np.linalg.solve(scatter, change.T).T
-        power = (weights * change).sum(axis=1)
+        # What liquid changes is smoothed over rows that no empty tip has shown.
+        power = np.where(np.isfinite(dry).all(axis=1), (weights * change).sum(axis=1), np.nan)
         return _Templates(dry, change, weights, power, np.linalg.inv(scatter))
+
+
+class Deliveries(WetAndDry):
+    """What leaves the tip in this run's normal wells: a row that changes as theirs did is empty
+    now, and one that does not change at all holds what it held.
+
+    Both frames of a well are taken at one place, so that what stands behind the tip cancels.
+    """
+
+    _noise = NOISE * np.sqrt(2)
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._stayed: float | None = None
+
+    def learn_pair(self, before: TipProfile, after: TipProfile, full: float, margin: float) -> None:
+        """Take a well whose column ended at ``full`` (u), give or take, and left."""
+        if len(after.u) == len(before.u):
+            change = signals(after) - signals(before)
+            everywhere = np.ones(len(change), dtype=bool)
+            self._keep(change, before.u > full + margin, np.zeros_like(change), everywhere)
+
+    def read_pair(
+        self, before: TipProfile, after: TipProfile, full: float, high: float = 0.985
+    ) -> Wetness | None:
+        """How wet each row below ``full`` (u) still is; ``None`` while the wells learned do not
+        agree about what leaves a tip."""
+        if len(after.u) != len(before.u) or not self._agree():
+            return None
+        wet = self._compared(before.u, signals(after) - signals(before), full, high)
+        return None if wet is None else replace(wet, paired=True)
+
+    def _agree(self) -> bool:
+        """Whether each well learned reads as emptied by the others: of a liquid that does not show
+        all that they have in common is noise, and by that any tip reads as unchanged."""
+        if len(self._dry) < _PAIRS:
+            return False
+        self.prepare()
+        if self._templates is None:
+            return False
+        if self._stayed is None:
+            stack = np.stack(self._dry).astype(np.float64)
+            stack = stack[:, np.isfinite(stack).all(axis=(0, 2))]
+            others = (stack.sum(axis=0) - stack) / (len(stack) - 1)
+            weighed = others @ self._templates.precision
+            left = (weighed * stack).sum(axis=(1, 2)) / np.maximum(
+                (weighed * others).sum(axis=(1, 2)), 1e-9
+            )
+            self._stayed = 1.0 - float(np.median(left))
+        return abs(self._stayed) <= _AGREEING
+
+    def _keep(
+        self, dry: Array, are_dry: NDArray[np.bool_], wet: Array, are_wet: NDArray[np.bool_]
+    ) -> None:
+        super()._keep(dry, are_dry, wet, are_wet)
+        self._stayed = None
 
 
 def _median(frames: Sequence[Array]) -> tuple[NDArray[np.float64], float]:

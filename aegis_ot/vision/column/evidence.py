@@ -31,7 +31,7 @@ _STEP_RANGE = (-2.0, 8.0)
 
 
 @dataclass(frozen=True)
-class Dye:
+class DyeColour:
     """The colour that a full column adds to a tip, as :attr:`TipProfile.colour` measures it.
 
     Attributes:
@@ -53,7 +53,7 @@ class Dye:
         return np.asarray(raw * kept, dtype=np.float32)
 
 
-def mean_dye(dyes: list[Dye]) -> Dye | None:
+def mean_dye(dyes: list[DyeColour]) -> DyeColour | None:
     """Mean of several observations of one dye, weighted by their precision."""
     if not dyes:
         return None
@@ -61,11 +61,11 @@ def mean_dye(dyes: list[Dye]) -> Dye | None:
     total = float(weights.sum())
     red = float(weights @ np.array([dye.red for dye in dyes])) / total
     blue = float(weights @ np.array([dye.blue for dye in dyes])) / total
-    return Dye(red, blue, float(1.0 / np.sqrt(total)))
+    return DyeColour(red, blue, float(1.0 / np.sqrt(total)))
 
 
 @dataclass(frozen=True)
-class Step:
+class SignalStep:
     """How much of a signal begins at a row and goes on to the orifice, for every row.
 
     Attributes:
@@ -96,7 +96,7 @@ def taper(u: Array) -> NDArray[np.float64]:
     return np.maximum(_TAPER_END - u.astype(np.float64), 0.02) / (_TAPER_END - 0.5)
 
 
-def long_step(u: Array, signal: Array, top: float, bottom: float) -> Step:
+def long_step(u: Array, signal: Array, top: float, bottom: float) -> SignalStep:
     """Matched filter for a column that ends at each row between ``top`` and ``bottom`` (u).
 
     All rows below against those next above, each by how much colour a column would show there.
@@ -105,7 +105,7 @@ def long_step(u: Array, signal: Array, top: float, bottom: float) -> Step:
     sd = np.full(len(u), np.inf, dtype=np.float32)
     inside = np.flatnonzero((u > top) & (u < bottom))
     if len(inside) < 16:
-        return Step(size, sd)
+        return SignalStep(size, sd)
     x = signal[inside].astype(np.float64)
     weight = taper(u[inside])
     n = len(x)
@@ -125,13 +125,13 @@ def long_step(u: Array, signal: Array, top: float, bottom: float) -> Step:
     spread = _correlation_length(np.clip(rest, -3 * noise, 3 * noise))
     size[inside[k]] = step
     sd[inside[k]] = noise * np.sqrt(spread * (1.0 / power_below + 1.0 / power_above))
-    return Step(size, sd)
+    return SignalStep(size, sd)
 
 
-def colour_steps(profile: TipProfile, top: float, bottom: float) -> tuple[Step, Step]:
+def colour_steps(profile: TipProfile, top: float, bottom: float) -> tuple[SignalStep, SignalStep]:
     """Long steps of both colours, computed once per profile."""
 
-    def make() -> tuple[Step, Step]:
+    def make() -> tuple[SignalStep, SignalStep]:
         red, blue = (long_step(profile.u, profile.colour[:, i], top, bottom) for i in (0, 1))
         return red, blue
 
@@ -177,7 +177,7 @@ ALIKE: Strengths = ((0.5, 0.15), (0.8, 0.35), (1.0, 0.35), (1.3, 0.15))
 
 def colour_evidence(
     profile: TipProfile,
-    dye: Dye | None,
+    dye: DyeColour | None,
     empty: EmptyColour,
     *,
     top: float,

@@ -1,21 +1,21 @@
-"""One frame, one column: where it ends, what breaks it, how much liquid that is."""
+"""One frame, one column: where it ends, and what breaks it."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..tips import TipGeometry, tip_for
+from ..tips import TipGeometry
 from ..types import Image, TipDetection
 from .alone import alone
 from .axis import clarities, rectify
-from .breaks import Break, find_break
+from .breaks import strongest_break
 from .evidence import (
     ELSEWHERE,
     IMPOSSIBLE,
-    Dye,
+    DyeColour,
     EmptyColour,
     Strengths,
     colour_evidence,
@@ -42,53 +42,26 @@ class Reference:
         height_sd: Standard deviation of where a meniscus stands, tip lengths.
     """
 
-    dye: Dye | None = None
+    dye: DyeColour | None = None
     empty: EmptyColour = field(default_factory=EmptyColour)
     height_scale: float = 1.0
     height_sd: float = 0.08
 
 
 @dataclass(frozen=True)
-class ColumnMeasurement:
-    """The liquid column in one frame. ``u`` runs along the tip: 0 collar, 1 orifice.
+class ColumnEnd:
+    """Where the liquid column of one frame ends.
 
     Attributes:
-        profile: The signals that it was read from.
-        evidence: ``(rows,)`` log-likelihood ratio of a column that ends at each row.
-        presence: Largest ratio: above about 5 there is a column, below 0 there is none to see.
-        top: Upper meniscus, u; 1 where there is no column.
-        top_sd: Its standard uncertainty, u.
-        bottom: Lower end of the column, u.
-        gap: The strongest break in it, however weak; ``None`` where none can be told.
-        length_mm: Retained length, orifice to upper meniscus, mm.
-        length_sd_mm: Its standard uncertainty, mm.
-        volume_ul: Liquid in the tip, through the tip's geometry, µL.
-        volume_sd_ul: Its standard uncertainty, µL.
-        dye: Colour of this column against the empty tip above it.
-        collar, orifice: Ends of the refined axis, px of the frame.
+        presence: Largest log-likelihood ratio of one: above about 5 there is a column, below 0
+            there is none to see.
+        top: Upper meniscus, u (0 collar, 1 orifice); 1 where there is no column.
+        gap: Strength of the strongest break in it, however weak; ``None`` where none can be told.
     """
 
-    profile: TipProfile = field(repr=False)
-    evidence: Array = field(repr=False)
     presence: float
     top: float
-    top_sd: float
-    bottom: float
-    gap: Break | None
-    length_mm: float
-    length_sd_mm: float
-    volume_ul: float
-    volume_sd_ul: float
-    dye: Dye
-    collar: tuple[float, float]
-    orifice: tuple[float, float]
-
-    def point(self, u: float) -> tuple[float, float]:
-        """Place of ``u`` on the tip axis in the frame, px."""
-        return (
-            self.collar[0] + u * (self.orifice[0] - self.collar[0]),
-            self.collar[1] + u * (self.orifice[1] - self.collar[1]),
-        )
+    gap: float | None
 
 
 _MEASURED = {"ot2_1000": "p1000", "ot2_300": "p300", "ot2_200": "p300"}
@@ -199,70 +172,29 @@ def look_beside(
     return TipLook(tip_profile(strip, shape, cone), cone, seen.collar, there, shape)
 
 
-def measure_column(
-    image: Image,
-    detection: TipDetection,
-    pipette: str,
-    *,
-    expected_ul: float = 0.0,
-    reference: Reference | None = None,
-    capacity_ul: float | None = None,
-    shape: TipShape | None = None,
-) -> ColumnMeasurement:
-    """Measure the liquid column in one frame (about 6 ms).
-
-    Args:
-        image: Whole frame, ``(height, width, 3)`` uint8, BGR.
-        detection: The tip in it.
-        pipette: Opentrons pipette name or short class.
-        expected_ul: Liquid that should be in the tip, µL: where to look first. 0: anything.
-        reference: What is known of this run.
-        capacity_ul: Working volume of the tip, if known.
-        shape: Its outline, where other frames have shown which it is.
-    """
-    tip = tip_for(pipette, capacity_ul)
-    look = look_at_tip(image, detection, tip, shape=shape)
-    found = read_column(look.profile, tip, expected_ul, reference or Reference())
-    return replace(found, collar=look.collar, orifice=look.orifice)
-
-
 def read_column(
     profile: TipProfile, tip: TipGeometry, expected_ul: float, reference: Reference
-) -> ColumnMeasurement:
-    """The same from signals that were read before, in the light of another reference."""
+) -> ColumnEnd:
+    """Find the column's end in the signals of one frame.
+
+    Args:
+        profile: The signals.
+        tip: Geometry of the tip.
+        expected_ul: Liquid that should be in it, µL: where to look first. 0: anything.
+        reference: What is known of this run.
+    """
     evidence = column_evidence(profile, tip, reference)
+    ranked = evidence
     if expected_ul > 0:
         evidence = evidence + step_evidence(profile)
-        where = expected_top(tip, expected_ul, reference)
-        off = (profile.u - where) / max(reference.height_sd, 0.01)
-        ranked = evidence - np.minimum(0.5 * off**2, 12.0)
-    else:
-        ranked = evidence
+        off = profile.u - expected_top(tip, expected_ul, reference)
+        ranked = evidence - np.minimum(0.5 * (off / max(reference.height_sd, 0.01)) ** 2, 12.0)
     row = int(np.argmax(ranked))
     presence = float(evidence[row])
-    top, top_sd = _summit(profile.u, ranked, row)
-    there = presence > 0
-    top = top if there else 1.0
-    height = (1.0 - top) * tip.length_mm / reference.height_scale
-    height_sd = top_sd * tip.length_mm / reference.height_scale
-    volume = float(tip.volume_of(max(height, 0.0)))
-    per_mm = float(tip.volume_of(max(height, 0.0) + 1.0)) - volume
-    return ColumnMeasurement(
-        profile=profile,
-        evidence=evidence,
-        presence=presence,
-        top=top,
-        top_sd=top_sd,
-        bottom=1.0,
-        gap=find_break(profile, top) if there else None,
-        length_mm=(1.0 - top) * tip.length_mm,
-        length_sd_mm=height_sd,
-        volume_ul=volume,
-        volume_sd_ul=float(np.hypot(per_mm * height_sd, 0.05 * volume)),
-        dye=dye_at(profile, tip, row, reference.empty),
-        collar=(0.0, 0.0),
-        orifice=(0.0, 0.0),
-    )
+    if presence <= 0:
+        return ColumnEnd(presence, 1.0, None)
+    top = _summit(profile.u, ranked, row)
+    return ColumnEnd(presence, top, strongest_break(profile, top))
 
 
 def column_evidence(profile: TipProfile, tip: TipGeometry, reference: Reference) -> Array:
@@ -300,22 +232,18 @@ def ceiling(tip: TipGeometry) -> float:
     return tip.overlap_mm / tip.length_mm + 0.06
 
 
-def _summit(u: Array, ranked: Array, row: int) -> tuple[float, float]:
-    """Mean and standard deviation of the posterior around its highest row."""
+def _summit(u: Array, ranked: Array, row: int) -> float:
+    """Mean of the posterior around its highest row, u."""
     near = slice(max(0, row - 6), row + 7)
     weight = np.exp(ranked[near].astype(np.float64) - float(ranked[row]))
-    weight = weight / weight.sum()
-    mean = float(weight @ u[near])
-    spread = float(np.sqrt(weight @ (u[near] - mean) ** 2))
-    # Half a row of rounding, and about a pixel of where the tip's ends are.
-    return mean, float(np.hypot(spread, 0.006))
+    return float(weight @ u[near] / weight.sum())
 
 
-def dye_at(profile: TipProfile, tip: TipGeometry, row: int, empty: EmptyColour) -> Dye:
+def dye_at(profile: TipProfile, tip: TipGeometry, row: int, empty: EmptyColour) -> DyeColour:
     """Colour step at a row, less what an empty tip shows."""
     red, blue = colour_steps(profile, ceiling(tip), 0.97)
     sd = float(max(np.hypot(red.sd[row], empty.red_sd), np.hypot(blue.sd[row], empty.blue_sd)))
-    return Dye(
+    return DyeColour(
         float(red.size[row]) - empty.red,
         float(blue.size[row]) - empty.blue,
         sd if np.isfinite(sd) else 1.0,

@@ -15,10 +15,11 @@ import numpy as np
 from ...vocabulary import KeyframeKind
 from ..tips import TipGeometry
 from .breaks import lit
+from .contrast import Deliveries
 from .evidence import (
     ALIKE,
     IMPOSSIBLE,
-    Dye,
+    DyeColour,
     EmptyColour,
     combine,
     edge_evidence,
@@ -50,6 +51,10 @@ SEEN = 3.0
 
 _GLINT = 8.0
 """See :func:`~.evidence.combine`."""
+
+_STRAY, _SHORTEST_LEFT = 0.2, 0.08
+"""How far all rows of one pair stray together, as a share of what leaves a tip, and the shortest
+column that is told by them, u: nearer to the orifice its rim glints."""
 
 _ENOUGH_ABOVE = 0.1
 """Length of empty tip above a column that its colour can be compared with, u."""
@@ -86,10 +91,12 @@ class RunReference:
     Attributes:
         dyes: Colour of the full column in each of them.
         shift: Where menisci stand less where the tip model says, u.
+        deliveries: What leaves the tip in them.
     """
 
-    dyes: tuple[Dye, ...] = ()
+    dyes: tuple[DyeColour, ...] = ()
     shift: Mapping[KeyframeKind, float] = field(default_factory=dict)
+    deliveries: Deliveries = field(default_factory=Deliveries)
 
 
 @dataclass(frozen=True)
@@ -98,7 +105,8 @@ class Signs:
 
     Attributes:
         retained: Log-likelihood ratio of a column left after the dispense, both frames; 0 where
-            they speak against one.
+            they speak against one. ``None`` where ``undelivered`` says it.
+        undelivered: The same by what left the tip in the run's normal wells since TRANSIT.
         gap: Strength of the strongest break in the column, by keyframe.
         misfill: How far the column's end is from where it should be, by keyframe, u; negative
             values mean too much liquid.
@@ -114,12 +122,18 @@ class Signs:
     misfill: Mapping[KeyframeKind, float]
     absent: float | None
     lit: frozenset[KeyframeKind]
-    own_dye: Dye | None
-    spent_dye: Dye | None
+    own_dye: DyeColour | None
+    spent_dye: DyeColour | None
+    undelivered: float | None = None
 
 
 def weigh(
-    looks: Looks, tip: TipGeometry, expected: Volumes, model: TipModel, run: RunReference
+    looks: Looks,
+    tip: TipGeometry,
+    expected: Volumes,
+    model: TipModel,
+    run: RunReference,
+    at_one_place: bool = False,
 ) -> Signs:
     """Weigh the frames of one trajectory, as many as there are.
 
@@ -129,6 +143,7 @@ def weigh(
         expected: Liquid that should be in the tip at each keyframe, µL.
         model: Tip model of this tip class.
         run: What this run's normal wells taught.
+        at_one_place: Whether the tip hangs at the same place in TRANSIT and POST_DISPENSE.
     """
     gap: dict[KeyframeKind, float] = {}
     misfill: dict[KeyframeKind, float] = {}
@@ -148,11 +163,14 @@ def weigh(
         if found.presence > SEEN:
             misfill[kind] = found.top - where
         if found.presence > 0:
-            gap[kind] = found.gap.strength if found.gap is not None else 0.0
-    retained = _retained(looks, tip, expected, model, run, dye)
+            gap[kind] = found.gap or 0.0
+    undelivered = _undelivered(looks, tip, expected, model, run) if at_one_place else None
+    retained = None
+    if undelivered is None:
+        retained = _retained(looks, tip, expected, model, run, dye)
     absent = _absent(looks, tip, expected, model, run)
     spent = _spent_dye(looks, tip, expected, model, run)
-    return Signs(retained, gap, misfill, absent, frozenset(glowing), own, spent)
+    return Signs(retained, gap, misfill, absent, frozenset(glowing), own, spent, undelivered)
 
 
 def place(
@@ -163,18 +181,18 @@ def place(
     return top + model.offset.get(kind, 0.0) + run.shift.get(kind, 0.0)
 
 
-def _coloured(dye: Dye | None) -> bool:
+def _coloured(dye: DyeColour | None) -> bool:
     """Whether the reagent is known to have a colour that a tip shows."""
     return dye is not None and float(np.hypot(dye.red, dye.blue)) > max(3 * dye.sd, 0.04)
 
 
-def _reference(model: TipModel, dye: Dye | None) -> Reference:
+def _reference(model: TipModel, dye: DyeColour | None) -> Reference:
     return Reference(dye, model.empty, model.height_scale, _SEARCH)
 
 
 def _own_dye(
     looks: Looks, tip: TipGeometry, expected: Volumes, model: TipModel, run: RunReference
-) -> Dye | None:
+) -> DyeColour | None:
     """Colour step at the place where the full column should end in TRANSIT.
 
     Not at the place that fits best: that would find colour in noise.
@@ -192,7 +210,7 @@ def _own_dye(
 
 def _spent_dye(
     looks: Looks, tip: TipGeometry, expected: Volumes, model: TipModel, run: RunReference
-) -> Dye | None:
+) -> DyeColour | None:
     """Colour of the rows that were full in TRANSIT and are empty now."""
     before, after = KeyframeKind.TRANSIT, KeyframeKind.POST_DISPENSE
     volume = expected.get(before, 0.0)
@@ -206,7 +224,7 @@ def _spent_dye(
     weight = taper(full.u[rows])[:, None]
     red, blue = (weight * left).sum(axis=0) / (weight**2).sum()
     # Lamp and background are the same in both, the places of the two tips are not.
-    return Dye(float(red), float(blue), max(model.empty.red_sd, model.empty.blue_sd))
+    return DyeColour(float(red), float(blue), max(model.empty.red_sd, model.empty.blue_sd))
 
 
 def _retained(
@@ -215,7 +233,7 @@ def _retained(
     expected: Volumes,
     model: TipModel,
     run: RunReference,
-    dye: Dye | None,
+    dye: DyeColour | None,
 ) -> float | None:
     """Ratio of a column left after the dispense."""
     seen = [kind for kind in DELIVERED if kind in looks]
@@ -246,6 +264,19 @@ def _retained(
         usual = float(joint[np.abs(u - where) < NEAR].max(initial=0.0))
         joint = np.where(u < where - NEAR, joint - max(usual, 0.0), IMPOSSIBLE)
     return max(float(joint.max()), 0.0)
+
+
+def _undelivered(
+    looks: Looks, tip: TipGeometry, expected: Volumes, model: TipModel, run: RunReference
+) -> float | None:
+    """Ratio of a column left after the dispense, by what left the tip in the run's normal wells."""
+    before, after = KeyframeKind.TRANSIT, KeyframeKind.POST_DISPENSE
+    volume = expected.get(before, 0.0)
+    if before not in looks or after not in looks or volume <= 0 or expected.get(after, 0.0) > 0:
+        return None
+    full = max(place(before, volume, tip, model, run) + NEAR, ceiling(tip))
+    wet = run.deliveries.read_pair(looks[before], looks[after], full)
+    return None if wet is None else wet.strongest(_STRAY, _SHORTEST_LEFT)
 
 
 def _absent(

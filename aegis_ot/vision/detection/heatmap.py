@@ -19,7 +19,7 @@ from ...errors import ModelError
 from ..types import Axis, End, Ends, Image, TipDetection
 from .decode import COLLAR, ORIFICE, Candidate, Maps, candidates, peaks
 from .session import check_image, open_session
-from .views import CLOSE_UP_TIP, CLOSE_UP_TOP, View, close_up, overview, row_view
+from .views import CLOSE_UP_TIP, CLOSE_UP_TOP, View, close_up, overview, row_view, upright
 
 FORMAT = "aegis-ot-tip-detector/1"
 _SINGLE, _ROW = "tip_detector.onnx", "row_detector.onnx"
@@ -29,6 +29,7 @@ _LEAST_HEAT = 0.05  # of an end of one of several tips
 _RIVAL = 0.4
 _AIM = 5.0  # px of the close-up by which the first aim may be off
 _STRETCH = 0.05  # and the logarithm of its scale
+_LEANS = 0.05  # of a tip's length: from here on a close-up of a known place is turned
 _MULTIPLE = 16  # px, of which both sides of a view are multiples
 
 
@@ -166,7 +167,9 @@ class HeatmapDetector:
             ValueError: The image has another shape or type.
         """
         check_image(image)
-        view = close_up(image, *axis)
+        (x0, _), (x1, _) = axis
+        leans = abs(x1 - x0) > _LEANS * float(np.hypot(*np.subtract(*axis)))
+        view = upright(image, *axis) if leans else close_up(image, *axis)
         found = next(iter(candidates(_maps(self._session, [view])[0], 0.01, 1)), None)
         if found is None:
             return None

@@ -22,6 +22,8 @@ CLOSE_UP_TIP = 160.0
 CLOSE_UP_TOP = 40.0
 """Distance of the collar from the close-up's upper edge, px."""
 _MULTIPLE = 16
+_SHRUNK = 0.7
+"""Scale below which a turned part of a frame is made smooth before it is sampled."""
 
 
 @dataclass(frozen=True)
@@ -47,6 +49,34 @@ class View:
     def from_frame(self, x: float, y: float) -> tuple[float, float]:
         """Coordinates in the view of a point of the frame."""
         return (x - self.left) * self.scale_x, (y - self.top) * self.scale_y
+
+
+@dataclass(frozen=True)
+class UprightView(View):
+    """A part of a frame turned so that a leaning tip hangs straight down.
+
+    Attributes:
+        across, along: Unit vectors of the view's x and y in the frame.
+    """
+
+    across: tuple[float, float] = (1.0, 0.0)
+    along: tuple[float, float] = (0.0, 1.0)
+
+    def to_frame(self, x: float, y: float) -> tuple[float, float]:
+        """Frame coordinates of a point of the view."""
+        x, y = x / self.scale_x, y / self.scale_y
+        return (
+            self.left + x * self.across[0] + y * self.along[0],
+            self.top + x * self.across[1] + y * self.along[1],
+        )
+
+    def from_frame(self, x: float, y: float) -> tuple[float, float]:
+        """Coordinates in the view of a point of the frame."""
+        x, y = x - self.left, y - self.top
+        return (
+            (x * self.across[0] + y * self.across[1]) * self.scale_x,
+            (x * self.along[0] + y * self.along[1]) * self.scale_y,
+        )
 
 
 def overview(image: Image) -> View:
@@ -108,3 +138,40 @@ def close_up(image: Image, collar: tuple[float, float], orifice: tuple[float, fl
         float(left),
         float(top),
     )
+
+
+def upright(image: Image, collar: tuple[float, float], orifice: tuple[float, float]) -> View:
+    """As :func:`close_up`, turned so that a tip on this very axis hangs straight down."""
+    width, height = CLOSE_UP
+    right, down = orifice[0] - collar[0], orifice[1] - collar[1]
+    length = max(8.0, float(np.hypot(right, down)))
+    along, across = (right / length, down / length), (down / length, -right / length)
+    scale = CLOSE_UP_TIP / length
+    x, y = -width / 2 / scale, -CLOSE_UP_TOP / scale
+    left = collar[0] + x * across[0] + y * along[0]
+    top = collar[1] + x * across[1] + y * along[1]
+    # Only the surroundings are made smooth, where they are to be shrunk.
+    rows, columns = image.shape[:2]
+    reach = float(np.hypot(width, height)) / scale
+    x0, x1 = (int(np.clip(collar[0] + side * reach, 0, columns - 1)) for side in (-1, 1))
+    y0, y1 = (int(np.clip(collar[1] + side * reach, 0, rows - 1)) for side in (-1, 1))
+    part = image[y0 : y1 + 1, x0 : x1 + 1]
+    if scale < _SHRUNK:
+        part = np.asarray(cv2.GaussianBlur(part, (0, 0), 0.4 / scale), np.uint8)
+    # cv2 puts pixel centres on integers, this project on halves.
+    half = 0.5 / scale
+    start = (left + half * (across[0] + along[0]), top + half * (across[1] + along[1]))
+    matrix = np.array(
+        [
+            [across[0] / scale, along[0] / scale, start[0] - 0.5 - x0],
+            [across[1] / scale, along[1] / scale, start[1] - 0.5 - y0],
+        ]
+    )
+    pixels = cv2.warpAffine(
+        part,
+        matrix,
+        CLOSE_UP,
+        flags=cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP,
+        borderMode=cv2.BORDER_REPLICATE,
+    )
+    return UprightView(np.asarray(pixels, np.uint8), scale, scale, left, top, across, along)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import ModelError
-from ..types import End, Ends, Image, TipDetection
+from ..types import Image, TipDetection
 from .edges import axis_in_box
 from .session import check_image, open_session
 
@@ -36,7 +35,6 @@ class YoloDetector:
         tip_class: Index of the class that means "tip". If not given: the one whose name, as the
             export keeps it, has the word "tip" in it, else the first.
         threshold: Least score of a detection.
-        overlap: Intersection over union from which the weaker of two boxes is dropped.
         threads: Threads that onnxruntime may use.
 
     Raises:
@@ -48,7 +46,6 @@ class YoloDetector:
         path: str | Path,
         tip_class: int | None = None,
         threshold: float = 0.5,
-        overlap: float = 0.5,
         threads: int = 1,
     ) -> None:
         self._name = Path(path).name
@@ -58,7 +55,7 @@ class YoloDetector:
             raise ModelError(f"The detector {self._name} cannot be read: {error}") from error
         self._session = open_session(model, threads, f"The detector {self._name}")
         self._class = _named_class(self._session) if tip_class is None else tip_class
-        self.threshold, self._overlap = threshold, overlap
+        self.threshold = threshold
         inputs, outputs = self._session.get_inputs(), self._session.get_outputs()
         if len(inputs) != 1 or len(outputs) != 1:
             raise ModelError(
@@ -94,28 +91,19 @@ class YoloDetector:
             ModelError: The network's output has another layout than documented.
             ValueError: The image has another shape or type.
         """
-        return next(self._tips(image), None)
-
-    def ends(self, image: Image, tip: TipDetection, reach: float) -> Ends:
-        """Both ends of every box up to ``reach`` px beside ``tip``."""
-        tips = [one for one in self._tips(image) if abs(one.collar[0] - tip.collar[0]) <= reach]
-        return Ends(
-            tuple(End(*one.collar, one.confidence) for one in tips),
-            tuple(End(*one.orifice, one.confidence) for one in tips),
-        )
-
-    def _tips(self, image: Image) -> Iterator[TipDetection]:
         check_image(image)
         canvas, scale, left, top = self._letterbox(image)
         boxes, scores = self._boxes(canvas)
-        for row in suppress(boxes, scores, self._overlap):
-            cx, cy, w, h = boxes[row]
-            x0 = float(np.clip((cx - w / 2 - left) / scale, 0, image.shape[1]))
-            x1 = float(np.clip((cx + w / 2 - left) / scale, 0, image.shape[1]))
-            y0 = float(np.clip((cy - h / 2 - top) / scale, 0, image.shape[0]))
-            y1 = float(np.clip((cy + h / 2 - top) / scale, 0, image.shape[0]))
-            collar, orifice = axis_in_box(image, x0, y0, x1 - x0, y1 - y0)
-            yield TipDetection(x0, y0, x1 - x0, y1 - y0, float(scores[row]), orifice, collar)
+        if not len(scores):
+            return None
+        best = int(np.argmax(scores))
+        cx, cy, w, h = boxes[best]
+        half = np.array((-0.5, 0.5))
+        x0, x1 = np.clip((cx + half * w - left) / scale, 0, image.shape[1])
+        y0, y1 = np.clip((cy + half * h - top) / scale, 0, image.shape[0])
+        box = (float(x0), float(y0), float(x1 - x0), float(y1 - y0))
+        collar, orifice = axis_in_box(image, *box)
+        return TipDetection(*box, float(scores[best]), orifice, collar)
 
     def _letterbox(self, image: Image) -> tuple[NDArray[np.float32], float, int, int]:
         height, width = image.shape[:2]
@@ -173,24 +161,3 @@ def _named_class(session: Any) -> int:
         if "tip" in re.split(r"[^a-z]+", name.lower()):
             return int(number)
     return 0
-
-
-def suppress(boxes: Boxes, scores: NDArray[np.float64], overlap: float) -> list[int]:
-    """Non-maximum suppression: rows to keep, highest score first.
-
-    Args:
-        boxes: Centre x, centre y, width, height, shape ``(n, 4)``.
-        scores: Shape ``(n,)``.
-        overlap: Intersection over union from which the weaker of two boxes is dropped.
-    """
-    low, high = boxes[:, :2] - boxes[:, 2:] / 2, boxes[:, :2] + boxes[:, 2:] / 2
-    area = boxes[:, 2] * boxes[:, 3]
-    kept: list[int] = []
-    left = np.argsort(-scores, kind="stable")
-    while left.size:
-        best, left = int(left[0]), left[1:]
-        kept.append(best)
-        sides = np.minimum(high[left], high[best]) - np.maximum(low[left], low[best])
-        shared = np.prod(np.clip(sides, 0, None), axis=1)
-        left = left[shared / (area[left] + area[best] - shared) < overlap]
-    return kept

@@ -4,17 +4,17 @@ Each stands behind :class:`ConfirmingGate`: the volumes that were measured, a vi
 (``aegis_ot.reasoning.vlm``), the operator. :class:`Gates` asks them in turn.
 """
 
-from .case import ALARM_P, Case, ConfirmingGate, Cost, GateDecision
+from .case import ALARM_P, ConfirmingGate, Cost, GateDecision, GateInput
 from .chain import Gates, in_sentences
 from .operator import OperatorGate
 from .volumetric import VolumetricGate, VolumetricLimits
 
 __all__ = [
     "ALARM_P",
-    "Case",
     "ConfirmingGate",
     "Cost",
     "GateDecision",
+    "GateInput",
     "Gates",
     "OperatorGate",
     "VolumetricGate",

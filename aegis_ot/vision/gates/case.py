@@ -22,7 +22,7 @@ simulated wells and 67 rendered ones none had both."""
 
 
 @dataclass(frozen=True)
-class Case:
+class GateInput:
     """What a gate gets to see of one well.
 
     Attributes:
@@ -40,6 +40,8 @@ class Case:
         normal: A normal well of this run, to compare with.
         tip_doubted: Whether the operator was asked before about liquid left in this very tip.
         near_band: Whether it is asked about because its score, inside the band, is near the end.
+        beyond_lab: How far its readings are beyond the laboratory's own limit, log odds; 0 or less:
+            they are not, or it has none. See :mod:`..lab_limits`.
     """
 
     sample: TrajectorySample
@@ -55,11 +57,13 @@ class Case:
     normal: TrajectorySample | None = None
     tip_doubted: bool = False
     near_band: bool = False
+    beyond_lab: float = 0.0
 
     @property
     def alarming(self) -> bool:
         """Whether the well looks too unusual to pass without proof."""
-        return self.seems_left or (self.p_value is not None and self.p_value < ALARM_P)
+        unusual = self.p_value is not None and self.p_value < ALARM_P
+        return self.seems_left or unusual or self.beyond_lab > 0
 
     @property
     def seems_left(self) -> bool:
@@ -129,5 +133,5 @@ class ConfirmingGate(Protocol):
     gate: Gate
     screens: bool
 
-    def examine(self, case: Case) -> GateDecision:
+    def examine(self, case: GateInput) -> GateDecision:
         """Judge one case. Must not raise for a case that it cannot judge: ``UNDECIDED``."""

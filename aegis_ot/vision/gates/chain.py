@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from ...vocabulary import Gate, Outcome
-from .case import Case, ConfirmingGate, GateDecision
+from .case import ConfirmingGate, GateDecision, GateInput
 
 
 class Gates:
@@ -23,13 +23,13 @@ class Gates:
         """The vision model, where it was not asked because an earlier gate, or none, decided."""
         names = [gate.gate for gate in self._gates]
         later = names.index(decided) + 1 if decided in names else 0
-        return next((gate for gate in self._gates[later:] if gate.gate is Gate.VLM), None)
+        return next((gate for gate in self._gates[later:] if gate.gate.traits.is_model), None)
 
-    def screen(self, case: Case) -> GateDecision:
+    def screen(self, case: GateInput) -> GateDecision:
         """What the gates say that may be asked about every well; ``UNDECIDED`` if there is none."""
         return _ask([gate for gate in self._gates if gate.screens], case)
 
-    def confirm(self, case: Case) -> GateDecision:
+    def confirm(self, case: GateInput) -> GateDecision:
         """Ask one after another until one decides.
 
         If none does, the last one's answer stands, with all reasons and the first one's readings.
@@ -37,7 +37,7 @@ class Gates:
         return _ask(self._gates, case)
 
 
-def _ask(gates: Sequence[ConfirmingGate], case: Case) -> GateDecision:
+def _ask(gates: Sequence[ConfirmingGate], case: GateInput) -> GateDecision:
     decisions: list[GateDecision] = []
     for gate in gates:
         decision = gate.examine(case)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ...vocabulary import Gate, Outcome
-from .case import Case, GateDecision
+from .case import GateDecision, GateInput
 
 
 class OperatorGate:
@@ -12,7 +12,7 @@ class OperatorGate:
     gate = Gate.OPERATOR
     screens = False
 
-    def examine(self, case: Case) -> GateDecision:
+    def examine(self, case: GateInput) -> GateDecision:
         return GateDecision(
             Outcome.UNDECIDED, self.gate, "No gate could settle this well; please look at it."
         )

@@ -9,7 +9,7 @@ from ..delivery import Shown
 from ..measuring import ColumnReading
 from ..types import FREE, TrajectorySample
 from ..usual import ENOUGH
-from .case import Case, GateDecision
+from .case import GateDecision, GateInput
 
 
 @dataclass(frozen=True)
@@ -60,7 +60,7 @@ class VolumetricGate:
     def __init__(self, limits: VolumetricLimits | None = None) -> None:
         self.limits = limits or VolumetricLimits()
 
-    def examine(self, case: Case) -> GateDecision:
+    def examine(self, case: GateInput) -> GateDecision:
         sample = case.sample
         absent = set(FREE) <= set(case.missing)
         if absent and not case.clearly_absent:
@@ -93,7 +93,7 @@ class VolumetricGate:
         return max(sigmas * reading.sigma_ul, fraction * commanded_ul, limits.least_ul)
 
     def _contradiction(
-        self, kind: KeyframeKind, reading: ColumnReading, case: Case
+        self, kind: KeyframeKind, reading: ColumnReading, case: GateInput
     ) -> GateDecision | None:
         sample, limits = case.sample, self.limits
         expected = sample.expected_ul.get(kind, 0.0)
@@ -101,15 +101,6 @@ class VolumetricGate:
         tolerance = self.tolerance(reading, sample.volume_ul, gross)
         difference = reading.volume_ul - expected
         measured = reading.volume_ul
-        sigmas = limits.gross_sigmas if gross else limits.sigmas
-        gap_limit = max(sigmas * reading.gap_sigma_ul, 0.02 * sample.volume_ul)
-        if kind is KeyframeKind.TRANSIT and reading.gap_ul > gap_limit:
-            return self._fail(
-                FailureType.AIR_BUBBLE,
-                f"About {reading.gap_ul:.1f} µL of air stand inside the column.",
-                measured,
-                expected,
-            )
         if abs(difference) <= tolerance:
             return None
         if kind is KeyframeKind.TRANSIT and gross and measured > limits.gross_empty * expected:
@@ -144,6 +135,9 @@ class VolumetricGate:
         sharp = reading.sigma_ul <= limits.sharp_fraction * sample.volume_ul
         shown = case.delivery.shown if case.delivery is not None else Shown.UNKNOWN
         all_of_it = difference >= 0.9 * sample.volume_ul
+        full = case.readings.get(KeyframeKind.TRANSIT)
+        if all_of_it and reading.unchanged and (full is None or full.vague):
+            return self._unchanged(case)
         nothing = all_of_it and shown is not Shown.LEFT and (sharp or shown is Shown.NOTHING)
         return self._fail(
             FailureType.NO_DISPENSE if nothing else FailureType.PARTIAL_DISPENSE,
@@ -153,7 +147,7 @@ class VolumetricGate:
             expected,
         )
 
-    def _undelivered(self, case: Case) -> GateDecision | None:
+    def _undelivered(self, case: GateInput) -> GateDecision | None:
         """What the trajectory's own frames show, whatever the run was calibrated on."""
         shown = case.delivery
         if shown is None or shown.shown in (Shown.EMPTIED, Shown.FAINT, Shown.UNKNOWN):
@@ -176,11 +170,14 @@ class VolumetricGate:
                 shown.left_ul,
                 expected,
             )
+        return self._unchanged(case)
+
+    def _unchanged(self, case: GateInput) -> GateDecision:
+        """The tip is after the dispense as it was before: whether it was full, TRANSIT may tell."""
         full = case.readings.get(KeyframeKind.TRANSIT)
         half = 0.5 * case.sample.expected_ul.get(KeyframeKind.TRANSIT, 0.0)
-        seen = full is not None and not full.vague
         failure = FailureType.OTHER
-        if seen and full is not None:
+        if full is not None and not full.vague:
             loaded = full.volume_ul > half
             failure = FailureType.NO_DISPENSE if loaded else FailureType.NO_ASPIRATE
         return GateDecision(
@@ -196,7 +193,7 @@ class VolumetricGate:
     ) -> GateDecision:
         return GateDecision(Outcome.FAIL, self.gate, reason, failure, measured, expected)
 
-    def _agreement(self, case: Case, sample: TrajectorySample) -> GateDecision:
+    def _agreement(self, case: GateInput, sample: TrajectorySample) -> GateDecision:
         full = case.readings.get(KeyframeKind.TRANSIT)
         last = case.readings.get(KeyframeKind.POST_DISPENSE)
         expected = sample.expected_ul.get(KeyframeKind.POST_DISPENSE)
@@ -213,6 +210,12 @@ class VolumetricGate:
                 Outcome.UNDECIDED,
                 "The tip looks unusual, and after the dispense as if liquid were left in it, "
                 "though too little or too faint to be sure.",
+            )
+        if case.beyond_lab > 0:
+            return say(
+                Outcome.UNDECIDED,
+                "The readings of this well together look more like the failures that this "
+                "laboratory planted than like its normal wells.",
             )
         if case.alarming and seen:
             return say(

@@ -17,7 +17,7 @@ from scipy.optimize import least_squares
 
 from ..tips import TIPS
 from .model import POSE, CameraModel
-from .registered import Floats, Registration, Sighting, project_ends
+from .registered import Floats, Registration, Sighting, project_ends, with_slopes
 
 FEWEST = 4
 """Sightings from which a pose is fitted; with fewer the priors would speak."""
@@ -61,10 +61,15 @@ class _Problem:
     prior_sigma: Floats
 
     def residuals(self, parameters: Floats) -> Floats:
-        """Differences in standard deviations, ends first, then the priors; flat."""
+        """Differences in standard deviations, ends first, then the priors: ``(..., residuals)``."""
         ends = project_ends(self.camera, parameters, self.places, self.kinds)
-        off = np.nan_to_num((ends - self.seen) * self.weights[:, :, None], nan=1e4).ravel()
-        return np.concatenate((off, (parameters - self.prior) / self.prior_sigma))
+        off = np.nan_to_num((ends - self.seen) * self.weights[:, :, None], nan=1e4)
+        off = off.reshape(*parameters.shape[:-1], -1)
+        return np.concatenate((off, (parameters - self.prior) / self.prior_sigma), axis=-1)
+
+    def slopes(self, parameters: Floats) -> Floats:
+        """Derivatives of the residuals, ``(residuals, parameters)``."""
+        return with_slopes(self.residuals, parameters)[1]
 
     def cost(self, parameters: Floats) -> float:
         return float(np.log1p(self.residuals(parameters) ** 2).sum())
@@ -93,7 +98,13 @@ def fit(
     scale = np.array((0.1, 0.1, 0.1, 0.02, 0.05, 0.05, 0.1, 0.02, 0.02, *problem.prior[9:] * 0.02))
     found = [
         least_squares(
-            problem.residuals, first, loss="cauchy", x_scale=scale, max_nfev=60, ftol=1e-6
+            problem.residuals,
+            first,
+            problem.slopes,
+            loss="cauchy",
+            x_scale=scale,
+            max_nfev=60,
+            ftol=1e-6,
         )
         for first in starts
     ]
@@ -161,7 +172,7 @@ def _registration(problem: _Problem, found: Floats, names: tuple[str, ...]) -> R
     ends = project_ends(problem.camera, found, problem.places, problem.kinds)
     off = np.hypot(*np.moveaxis(ends - problem.seen, -1, 0))
     agrees = off * problem.weights < _AGREES
-    slopes = _slopes(problem, found)
+    slopes = problem.slopes(found)
     residuals = problem.residuals(found)
     # As the Cauchy loss weighs them; the priors count whole.
     shares = 1.0 / (1.0 + residuals**2)
@@ -178,17 +189,4 @@ def _registration(problem: _Problem, found: Floats, names: tuple[str, ...]) -> R
         float(np.median(off)),
         len(problem.places),
         float(agrees.mean()),
-    )
-
-
-def _slopes(problem: _Problem, here: Floats) -> Floats:
-    """Derivatives of the residuals, shape ``(residuals, parameters)``."""
-    steps = np.maximum(1e-5, 1e-5 * np.abs(here))
-    base = problem.residuals(here)
-    return np.stack(
-        [
-            (problem.residuals(here + step) - base) / size
-            for step, size in zip(np.diag(steps), steps, strict=True)
-        ],
-        axis=1,
     )

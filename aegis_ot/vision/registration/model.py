@@ -65,37 +65,38 @@ class CameraModel:
         """From the pivot, mm."""
         return float(np.exp(self.log_distance))
 
-    @property
-    def eye(self) -> Floats:
-        """Where the camera stands on the deck, mm, shape ``(3,)``."""
-        axes = self._axes()
-        ray = np.array((self.x, self.y, 1.0))
-        return np.asarray(self.pivot - axes.T @ ray * self.distance_mm)
-
     def depth(self, points: Floats) -> Floats:
         """Distance along the optical axis of points ``(n, 3)``, mm, shape ``(n,)``."""
-        return self._in_camera(points)[:, 2]
+        return _in_camera(self.parameters, points - np.array(self.pivot))[:, 2]
 
-    def project(self, points: Floats) -> Floats:
-        """Points on the deck, mm, ``(n, 3)``, to pixels ``(n, 2)``; ``nan`` behind the camera."""
-        seen = self._in_camera(points)
-        depth = np.where(seen[:, 2:] > 1.0, seen[:, 2:], np.nan)
-        plain = seen[:, :2] / depth * np.exp(self.log_focal)
+    def project(self, points: Floats, parameters: Floats | None = None) -> Floats:
+        """Points on the deck, mm, ``(..., n, 3)``, to pixels ``(..., n, 2)``; ``nan`` behind the
+        camera. ``parameters``, ``(..., 8)``: other poses and lenses, all in one go."""
+        here = self.parameters if parameters is None else parameters
+        seen = _in_camera(here, points - np.array(self.pivot))
+        depth = np.where(seen[..., 2:] > 1.0, seen[..., 2:], np.nan)
+        focal, distortion = np.exp(here[..., 6, None, None]), here[..., 7, None, None]
+        plain = seen[..., :2] / depth * focal
         corner = 0.25 * (self.size[0] ** 2 + self.size[1] ** 2)
-        bent = plain * (1.0 + self.distortion * (plain**2).sum(axis=1, keepdims=True) / corner)
+        bent = plain * (1.0 + distortion * (plain**2).sum(axis=-1, keepdims=True) / corner)
         return np.asarray(bent + np.array(self.size) / 2.0)
 
-    def _in_camera(self, points: Floats) -> Floats:
-        """Right, down and forward of the camera, mm, ``(n, 3)``."""
-        ray = np.array((self.x, self.y, 1.0)) * self.distance_mm
-        return np.asarray((points - np.array(self.pivot)) @ self._axes().T + ray)
 
-    def _axes(self) -> Floats:
-        """Unit vectors right, down and forward in deck coordinates, in rows, ``(3, 3)``."""
-        sin_a, cos_a = np.sin(self.azimuth), np.cos(self.azimuth)
-        sin_e, cos_e = np.sin(self.elevation), np.cos(self.elevation)
-        forward = np.array((cos_e * sin_a, cos_e * cos_a, -sin_e))
-        right = np.array((cos_a, -sin_a, 0.0))
-        down = np.cross(forward, right)
-        sin_r, cos_r = np.sin(self.roll), np.cos(self.roll)
-        return np.stack((cos_r * right + sin_r * down, cos_r * down - sin_r * right, forward))
+def _in_camera(parameters: Floats, points: Floats) -> Floats:
+    """Right, down and forward of the camera, mm, ``(..., n, 3)``, of points about the pivot."""
+    x, y = parameters[..., 4], parameters[..., 5]
+    ray = np.stack((x, y, np.ones_like(x)), axis=-1) * np.exp(parameters[..., 2, None])
+    return np.asarray(points @ np.swapaxes(_axes(parameters), -1, -2) + ray[..., None, :])
+
+
+def _axes(parameters: Floats) -> Floats:
+    """Unit vectors right, down and forward in deck coordinates, in rows, ``(..., 3, 3)``."""
+    azimuth, elevation, roll = (parameters[..., i] for i in (0, 1, 3))
+    sin_a, cos_a = np.sin(azimuth), np.cos(azimuth)
+    sin_e, cos_e = np.sin(elevation), np.cos(elevation)
+    forward = np.stack((cos_e * sin_a, cos_e * cos_a, -sin_e), axis=-1)
+    right = np.stack((cos_a, -sin_a, np.zeros_like(cos_a)), axis=-1)
+    down = np.cross(forward, right)
+    sin_r, cos_r = np.sin(roll)[..., None], np.cos(roll)[..., None]
+    turned = (cos_r * right + sin_r * down, cos_r * down - sin_r * right, forward)
+    return np.stack(turned, axis=-2)

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..tips import TipGeometry
+from ..types import Position, TipDetection
 from .model import POSE, CameraModel
 
 Floats = NDArray[np.float64]
-Position = tuple[float, float, float]
+
+_SURE = 0.02
+"""Standard error up to which a tip is measured where it must be, tip lengths."""
 
 
 @dataclass(frozen=True)
@@ -40,14 +44,34 @@ class ProjectedTip:
         orifice, collar: Ends of its axis, px.
         sigma_px: Standard error of the worse of both ends, px.
         px_per_mm: Scale along the tip.
-        depth_mm: Distance from the camera along its axis, mm: which of two tips is in front.
     """
 
     orifice: tuple[float, float]
     collar: tuple[float, float]
     sigma_px: float
     px_per_mm: float
-    depth_mm: float
+
+    @property
+    def is_sure(self) -> bool:
+        """Whether it may be measured there, though nothing is seen of it."""
+        return self.sigma_px <= _SURE * float(np.hypot(*np.subtract(self.orifice, self.collar)))
+
+    def lacking(self, size: tuple[int, int]) -> str:
+        """What a frame of ``size`` (width, height, px) does not show of it: ``"upper end"``,
+        ``"lower end"``, ``"tip"``, or nothing."""
+        upper, lower = (
+            not (0 <= x < size[0] and 0 <= y < size[1]) for x, y in (self.collar, self.orifice)
+        )
+        return "tip" if upper and lower else "upper end" if upper else "lower end" if lower else ""
+
+    def as_detection(self, tip: TipGeometry) -> TipDetection:
+        """As if a detector had found it there, with no confidence at all."""
+        (x0, y0), (x1, y1) = self.collar, self.orifice
+        half = self.px_per_mm * float(tip.outer_radius(tip.length_mm))
+        left, right = min(x0, x1) - half, max(x0, x1) + half
+        return TipDetection(
+            left, y0, right - left, max(y1 - y0, 1.0), 0.0, self.orifice, self.collar
+        )
 
 
 @dataclass(frozen=True)
@@ -90,17 +114,13 @@ class Registration:
         names = tuple(self.lengths_mm)
         place, kind = np.array([position]), np.array([names.index(tip)])
         here = self.parameters
-        ends = project_ends(self.camera, here, place, kind)[0]
+        ends, slopes = with_slopes(
+            lambda parameters: project_ends(self.camera, parameters, place, kind), here
+        )
+        ends = ends[0]
         if not np.isfinite(ends).all():
             return None
-        steps = np.maximum(1e-5, 1e-5 * np.abs(here))
-        slopes = np.stack(
-            [
-                (project_ends(self.camera, here + step, place, kind)[0] - ends).ravel() / size
-                for step, size in zip(np.diag(steps), steps, strict=True)
-            ],
-            axis=1,
-        )
+        slopes = slopes.reshape(4, -1)
         spread = slopes @ self.covariance @ slopes.T
         worst = max(float(np.linalg.eigvalsh(spread[i : i + 2, i : i + 2])[-1]) for i in (0, 2))
         orifice, collar = ends
@@ -110,7 +130,6 @@ class Registration:
             (float(collar[0]), float(collar[1])),
             float(np.sqrt(max(worst, 0.0))),
             length / self.lengths_mm[tip],
-            float(self.camera.depth(place)[0]),
         )
 
 
@@ -121,17 +140,32 @@ def project_ends(
 
     Args:
         camera: Gives frame size and pivot.
-        parameters: As in :attr:`Registration.parameters`, ``(9 + k,)``.
+        parameters: As in :attr:`Registration.parameters`, ``(..., 9 + k)``.
         places: Where the tips end on the deck, mm, ``(n, 3)``.
         kinds: Number of each tip's kind, ``(n,)``.
 
     Returns:
-        Orifice and collar of each, px, ``(n, 2, 2)``.
+        Orifice and collar of each, px, ``(..., n, 2, 2)``.
     """
-    model = camera.moved_to(parameters[:POSE])
-    lean, lengths = parameters[POSE], parameters[POSE + 1 :][kinds]
-    right = np.array((np.cos(model.azimuth), -np.sin(model.azimuth), 0.0))
+    azimuth, lean = parameters[..., 0, None, None], parameters[..., POSE, None, None]
+    lengths = parameters[..., POSE + 1 :][..., kinds][..., None]
+    right = np.concatenate((np.cos(azimuth), -np.sin(azimuth), 0.0 * azimuth), axis=-1)
     axis = np.cos(lean) * np.array((0.0, 0.0, 1.0)) + np.sin(lean) * right
-    tops = places + lengths[:, None] * axis
-    seen = model.project(np.concatenate((places, tops)))
-    return np.stack((seen[: len(places)], seen[len(places) :]), axis=1)
+    tops = places + lengths * axis
+    points = np.concatenate((np.broadcast_to(places, tops.shape), tops), axis=-2)
+    seen = camera.project(points, parameters[..., :POSE])
+    return np.stack((seen[..., : len(places), :], seen[..., len(places) :, :]), axis=-2)
+
+
+def with_slopes(function: Callable[[Floats], Floats], here: Floats) -> tuple[Floats, Floats]:
+    """A function's value at ``here``, ``(p,)``, and its forward differences, in one call.
+
+    Args:
+        function: Takes ``(m, p)`` and gives ``(m, ...)``.
+
+    Returns:
+        Value ``(...)`` and slopes ``(..., p)``.
+    """
+    steps = np.maximum(1e-5, 1e-5 * np.abs(here))
+    values = function(np.concatenate((here[None], here + np.diag(steps))))
+    return values[0], np.moveaxis(values[1:] - values[0], 0, -1) / steps

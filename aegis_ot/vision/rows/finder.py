@@ -7,7 +7,7 @@ from typing import Literal
 
 from ...vocabulary import Keyframe
 from ..tips import TipGeometry, tip_for
-from ..types import FREE, Detector, Image, TipDetection
+from ..types import FREE, Detector, Image, PairedDetector, TipDetection
 from .fit import Row
 from .hiding import HIDDEN, covered
 from .places import RowPlaces
@@ -55,8 +55,9 @@ class RowFinder:
         self._detector = detector
         self._tip: TipGeometry = tip_for(keyframe.pipette, keyframe.capacity_ul)
         self._count = len(keyframe.nozzles)
-        others = filter(None, [getattr(detector, "of_rows", None)])
-        self._searches = [RowSearch(one, self._tip, self._count) for one in (detector, *others)]
+        other = detector.of_rows if isinstance(detector, PairedDetector) else None
+        asked = [detector] if other is None else [detector, other]
+        self._searches = [RowSearch(one, self._tip, self._count) for one in asked]
         self._search = self._searches[0]
         self._column = keyframe.nozzles[0][1:] == keyframe.nozzles[-1][1:]
         self._places = RowPlaces()

@@ -8,8 +8,8 @@ import numpy as np
 
 from ...vocabulary import Keyframe
 from ..analyser import RunAnalyser
+from ..calibration_group import OpenTrajectory
 from ..camera import Frame
-from ..stream import OpenTrajectory
 from ..types import Image, TipDetection, TrajectorySample
 
 NO_FRAME = Frame(b"", np.zeros((0, 0, 3), np.uint8), 0.0)
@@ -17,25 +17,13 @@ NO_FRAME = Frame(b"", np.zeros((0, 0, 3), np.uint8), 0.0)
 
 
 class _Told:
-    """A detector that knows one tip of each frame, because the row was found as a whole."""
+    """A detector that knows the one tip, because the row was found as a whole."""
 
-    def __init__(self) -> None:
-        self._known: dict[int, list[tuple[Image, TipDetection | None]]] = {}
-
-    def tell(self, trajectory: int, image: Image, tip: TipDetection | None) -> None:
-        """Where the tip is in a frame of a trajectory."""
-        self._known.setdefault(trajectory, []).append((image, tip))
-
-    def forget(self, trajectory: int) -> None:
-        """Its frames will not be asked about again."""
-        self._known.pop(trajectory, None)
+    tip: TipDetection | None = None
 
     def detect(self, image: Image) -> TipDetection | None:
         """The tip that was told of this frame."""
-        known = (pair for pairs in self._known.values() for pair in pairs)
-        return next((tip for one, tip in known if one is image), None)
-
-    best_guess = detect
+        return self.tip
 
 
 class Lane(RunAnalyser):
@@ -56,15 +44,12 @@ class Lane(RunAnalyser):
 
     def see(self, keyframe: Keyframe, frame: Frame, tip: TipDetection | None) -> None:
         """A keyframe of this channel alone, and where its tip is in the frame."""
-        # Its own view of the same pixels: what is measured in a frame is kept by the frame.
-        own = replace(frame, image=frame.image.view())
-        self._told.tell(keyframe.trajectory, own.image, tip)
-        self.observe(keyframe, own)
+        self._told.tip = tip
+        self.observe(keyframe, frame)
 
     def forget(self, trajectory: int) -> None:
         """Nothing more is asked of this trajectory."""
         self._open.pop(trajectory, None)
-        self._told.forget(trajectory)
 
     def _sample(self, seen: OpenTrajectory) -> TrajectorySample:
         sample = super()._sample(seen)

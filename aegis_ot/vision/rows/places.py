@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..types import Position
 from .fit import Row
-
-Position = tuple[float, float, float]
 
 _MEMORY = 24
 _SAME_MM = 0.5

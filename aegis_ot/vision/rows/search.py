@@ -7,7 +7,7 @@ from typing import TypeGuard
 
 from ..column.measure import shape_of
 from ..tips import TipGeometry
-from ..types import Detector, Image, RowDetector, TipDetection
+from ..types import Detector, GuessingDetector, Image, RowDetector, TipDetection
 from .both_ends import find_in_wells, find_row
 from .fit import PITCH_MM, Row, upright
 from .nozzles import (
@@ -84,9 +84,9 @@ class RowSearch:
 
     def guess(self, image: Image) -> TipDetection | None:
         """The tip, or where one would be if any is there."""
-        guess = getattr(self._detector, "best_guess", self._detector.detect)
-        found: TipDetection | None = guess(image)
-        return found
+        if isinstance(self._detector, GuessingDetector):
+            return self._detector.best_guess(image)
+        return self._detector.detect(image)
 
     def row(self, image: Image, known: Row | None) -> Row | None:
         """The row of a frame; ``None`` if less than half of it is seen, or its tips are too close.

@@ -1,13 +1,13 @@
 """Scorers: fitted on normal trajectories, they say how unusual another one is.
 
-:func:`make_scorer` makes one by name. A scorer that can adapt to a run or plate has a further
-method, see :class:`Calibrating`.
+:func:`make_scorer` makes one by name. One that can adapt to a run or plate is :class:`Calibrating`;
+what judges live runs is a :class:`WorldModel`.
 """
 
 from __future__ import annotations
 
 import importlib
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Protocol, runtime_checkable
 
 from ...errors import ConfigurationError
@@ -23,7 +23,7 @@ _WHERE = {
 SCORERS = tuple(_WHERE)
 """Names that :func:`make_scorer` knows."""
 
-__all__ = ["SCORERS", "Calibrating", "make_scorer", "signs_of"]
+__all__ = ["SCORERS", "Calibrating", "GivesPValues", "WorldModel", "make_scorer"]
 
 
 @runtime_checkable
@@ -32,6 +32,33 @@ class Calibrating(Protocol):
 
     def calibrate(self, normals: Sequence[TrajectorySample]) -> None:
         """Adapt. Called anew for each plate; an empty sequence undoes it."""
+
+
+@runtime_checkable
+class GivesPValues(Scorer, Protocol):
+    """A scorer whose score is ``-log p`` of a normal well, nats."""
+
+    def p_value(self, sample: TrajectorySample) -> float:
+        """How often a normal trajectory scores this high."""
+
+
+@runtime_checkable
+class WorldModel(GivesPValues, Calibrating, Protocol):
+    """A scorer that knows what tips look like in other runs, and says what it found in this one."""
+
+    @property
+    def height_factors(self) -> Mapping[str, float]:
+        """How high columns stood in the runs it was fitted on, over what the geometry says, by the
+        class of tip."""
+
+    def score_of_seen(self, sample: TrajectorySample) -> float:
+        """Score of a trajectory of which a frame does not show the tip, though it is on."""
+
+    def look_ahead(self, sample: TrajectorySample) -> None:
+        """Work out what the first frames tell, while the last is still to come."""
+
+    def signs(self, sample: TrajectorySample) -> Mapping[str, float]:
+        """What a score is made of, by sign, nats."""
 
 
 def make_scorer(name: str, known: Sequence[str] = SCORERS) -> Scorer:
@@ -56,13 +83,3 @@ def make_scorer(name: str, known: Sequence[str] = SCORERS) -> Scorer:
         raise ConfigurationError(f"scorer {name!r} cannot be loaded: {error}") from error
     scorer: Scorer = getattr(loaded, cls)()
     return scorer
-
-
-def signs_of(scorer: Scorer, sample: TrajectorySample) -> dict[str, float]:
-    """Surprises of the signs behind a score, by sign, nats; none where the scorer has no report."""
-    read = getattr(scorer, "report", None)
-    report = None if read is None else read(sample)
-    column = getattr(report, "column", report)
-    signs = {str(sign): float(value) for sign, value in getattr(column, "surprises", {}).items()}
-    patches = getattr(report, "patches", None)
-    return signs if patches is None else signs | {"patches": float(patches)}

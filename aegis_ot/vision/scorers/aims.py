@@ -11,7 +11,6 @@ from dataclasses import replace
 
 from ...vocabulary import KeyframeKind
 from ..column import TipLook
-from ..crops import remember
 from ..types import TrajectorySample
 from .looks import looks_beside
 
@@ -28,11 +27,11 @@ def aimed(sample: TrajectorySample, px: float) -> TrajectorySample:
     """
     if not px:
         return sample
-    return remember(sample, f"aimed {px}", lambda _: _with(sample, looks_beside(sample, px)))
+    return sample.once(f"aimed {px}", lambda: _with(sample, looks_beside(sample, px)))
 
 
 def _with(sample: TrajectorySample, looks: Mapping[KeyframeKind, TipLook]) -> TrajectorySample:
     moved = replace(sample)
     # What every scorer asks for first: so it need not know.
-    remember(moved, "looks", lambda _: looks)
+    moved.once("looks", lambda: looks)
     return moved

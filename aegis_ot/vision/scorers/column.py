@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -12,10 +12,22 @@ from numpy.typing import NDArray
 
 from ...errors import ModelError
 from ...vocabulary import KeyframeKind
-from ..column import EmptyColour, RunReference, Signs, TipModel, learn_run, learn_tip, weigh
-from ..column.trajectory import LOADED
+from ..column import (
+    Deliveries,
+    EmptyColour,
+    RunReference,
+    Signs,
+    TipLook,
+    TipModel,
+    at_one_place,
+    learn_run,
+    learn_tip,
+    place,
+    weigh,
+)
+from ..column.trajectory import LOADED, NEAR
 from ..models import ModelFile
-from ..types import TrajectorySample
+from ..types import FREE, TrajectorySample
 from .looks import looks
 from .surprise import NO_TIP, Tail, fit_tail
 
@@ -28,6 +40,7 @@ _SHARED = 0.7
 
 PRIORS: Mapping[str, Tail] = {
     "retained": Tail(3.0, 1.0),
+    "undelivered": Tail(0.5, 1.0),
     "gap_lit": Tail(1.0, 0.8),
     "gap_aspirate": Tail(2.5, 1.0),
     "gap_transit": Tail(3.0, 2.0),
@@ -118,7 +131,8 @@ class ColumnScorer:
         if not normals:
             return
         model = self._model(normals[0])
-        self.run = learn_run([_weigh(sample, model, RunReference()) for sample in normals])
+        taught = learn_run([_weigh(sample, model, RunReference()) for sample in normals])
+        self.run = replace(taught, deliveries=_deliveries(normals, model, taught))
         seen: dict[str, list[float]] = defaultdict(list)
         for sample in normals:
             for sign, value in _values(_weigh(sample, model, self.run), model).items():
@@ -208,7 +222,30 @@ def _profiles(sample: TrajectorySample) -> dict[KeyframeKind, Any]:
 
 
 def _weigh(sample: TrajectorySample, model: TipModel, run: RunReference) -> Signs:
-    return weigh(_profiles(sample), sample.tip, sample.expected_ul, model, run)
+    still = _pair(sample) is not None
+    return weigh(_profiles(sample), sample.tip, sample.expected_ul, model, run, still)
+
+
+def _pair(sample: TrajectorySample) -> tuple[TipLook, TipLook] | None:
+    """TRANSIT and POST_DISPENSE, where the tip hangs at one place in both."""
+    before, after = (looks(sample).get(kind) for kind in FREE)
+    if before is None or after is None:
+        return None
+    still = at_one_place((before.collar, before.orifice), (after.collar, after.orifice))
+    return (before, after) if still else None
+
+
+def _deliveries(
+    normals: Sequence[TrajectorySample], model: TipModel, run: RunReference
+) -> Deliveries:
+    """What leaves the tip in a run's normal wells."""
+    deliveries = Deliveries()
+    for sample in normals:
+        pair, (drawn, kept) = _pair(sample), (sample.expected_ul.get(kind, 0.0) for kind in FREE)
+        if pair is not None and drawn > 0 and kept <= 0:
+            full = place(FREE[0], drawn, sample.tip, model, run)
+            deliveries.learn_pair(pair[0].profile, pair[1].profile, full, NEAR)
+    return deliveries
 
 
 def _as_in_use(
@@ -229,7 +266,11 @@ def _as_in_use(
 
 def _values(signs: Signs, model: TipModel) -> dict[str, float | None]:
     """One number per sign of :data:`PRIORS`; larger is worse."""
-    values: dict[str, float | None] = {"retained": signs.retained, "absent": signs.absent}
+    values: dict[str, float | None] = {
+        "retained": signs.retained,
+        "undelivered": signs.undelivered,
+        "absent": signs.absent,
+    }
     for kind in LOADED:
         where = "lit" if kind in signs.lit else kind.value
         values[f"gap_{where}"] = signs.gap.get(kind)

@@ -44,7 +44,7 @@ class EnsembleReport:
     patches: float
 
 
-class Reading(NamedTuple):
+class EnsembleReading(NamedTuple):
     """What both scorers find where the tip's end is put in one place."""
 
     column: ColumnReport
@@ -126,6 +126,16 @@ class EnsembleScorer:
             return NO_TIP
         return self.report(sample).score
 
+    @property
+    def height_factors(self) -> Mapping[str, float]:
+        """How high columns stood in the wells of the fit, over what the geometry says."""
+        return {name: model.height_scale for name, model in self.column.models.items()}
+
+    def signs(self, sample: TrajectorySample) -> dict[str, float]:
+        """Surprises behind a score, by sign, nats."""
+        report = self.report(sample)
+        return {**report.column.surprises, "patches": report.patches}
+
     def score_of_seen(self, sample: TrajectorySample) -> float:
         """The same where a frame does not show the tip, though it is on: from the others."""
         return self.report(sample).score
@@ -149,11 +159,11 @@ class EnsembleScorer:
         column = _mean([one.column for one in readings])
         return EnsembleReport(score, column, float(np.mean([one.patches for one in readings])))
 
-    def read(self, sample: TrajectorySample, px: float = 0.0) -> Reading:
+    def read(self, sample: TrajectorySample, px: float = 0.0) -> EnsembleReading:
         """One reading, without its ``-log p``."""
         column, patches = self._by_aim[px]
         moved = aimed(sample, px)
-        return Reading(column.report(moved), patches.score_of_seen(moved))
+        return EnsembleReading(column.report(moved), patches.score_of_seen(moved))
 
     def p_value(self, sample: TrajectorySample) -> float:
         """How often a normal trajectory scores this high."""

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import functools
-import weakref
 from collections.abc import Hashable, Mapping
 from typing import Any
 
@@ -12,9 +10,8 @@ import numpy as np
 from ...vocabulary import KeyframeKind
 from ..column import TipLook, TipShape, look_at_tip, look_beside, shapes_of
 from ..column.trajectory import LOADED
-from ..crops import remember
 from ..tips import TipGeometry
-from ..types import FREE, Image, TipDetection, TrajectorySample
+from ..types import FREE, Frames, Image, TipDetection, TrajectorySample
 
 _PERSPECTIVE = 0.08
 """By how much the length of one tip differs between the frames of a trajectory at most: it
@@ -28,40 +25,34 @@ it by more than this."""
 _SAME = 0.03
 """Lengths this close are the same: looking again would change nothing."""
 
-_Taken = dict[Hashable, dict[Any, TipLook]]
-_taken: dict[int, tuple[weakref.ref[Image], _Taken]] = {}
-
-
-def _taken_in(image: Image) -> _Taken:
-    """All looks at a frame, for as long as it lives."""
-    place = id(image)
-    known = _taken.get(place)
-    if known is None or known[0]() is not image:
-        forget = functools.partial(_taken.pop, place, None)
-        known = _taken[place] = (weakref.ref(image, lambda _: forget()), {})
-    return known[1]
-
 
 def look(
-    image: Image,
+    frames: Mapping[KeyframeKind, Image],
+    kind: KeyframeKind,
     detection: TipDetection,
     tip: TipGeometry,
     length: float | None = None,
     shape: TipShape | None = None,
 ) -> TipLook:
-    """:func:`look_at_tip`, once for as long as the frame lives.
+    """:func:`look_at_tip` at one frame, once for as long as :class:`~..types.Frames` are kept.
 
     A live run calls it as each frame arrives, so that little is left to do after the last one.
     """
-    of_tip = _taken_in(image).setdefault((detection, tip.name), {})
+    of_tip = _measured(frames, (kind, detection, tip.name))
     for (other, _), taken in of_tip.items():
         same = other == length or (other and length and abs(other / length - 1.0) < _SAME)
         if same and (shape is None or taken.shape == shape):
             return taken
     if shape is not None:
         of_tip.pop((length, None), None)  # whose outline is not the tip's
-    taken = of_tip[length, shape] = look_at_tip(image, detection, tip, length, shape)
+    taken = of_tip[length, shape] = look_at_tip(frames[kind], detection, tip, length, shape)
     return taken
+
+
+def _measured(frames: Mapping[KeyframeKind, Image], what: Hashable) -> dict[Any, TipLook]:
+    """What was measured in these frames before; nothing where that is not kept with them."""
+    known: dict[Any, TipLook] = {}
+    return frames.measured.setdefault(what, known) if isinstance(frames, Frames) else known
 
 
 def looks_beside(sample: TrajectorySample, px: float) -> Mapping[KeyframeKind, TipLook]:
@@ -70,13 +61,13 @@ def looks_beside(sample: TrajectorySample, px: float) -> Mapping[KeyframeKind, T
     """
     found = dict(looks(sample))
     for kind, seen in found.items():
-        detection, image = sample.detections.get(kind), sample.frames.get(kind)
-        if detection is not None and image is not None:
-            beside = _taken_in(image).setdefault(
-                (detection, sample.tip.name, seen.collar, seen.orifice), {}
+        detection, frames = sample.detections.get(kind), sample.frames
+        if detection is not None and kind in frames:
+            beside = _measured(
+                frames, (kind, detection, sample.tip.name, seen.collar, seen.orifice)
             )
             if px not in beside:
-                beside[px] = look_beside(image, detection, sample.tip, seen, px)
+                beside[px] = look_beside(frames[kind], detection, sample.tip, seen, px)
             found[kind] = beside[px]
     return found
 
@@ -88,19 +79,21 @@ def looks(sample: TrajectorySample) -> Mapping[KeyframeKind, TipLook]:
     those in which the tip hangs free shows a part of it, for labware hides the rest, or was
     detected badly; it is looked at again with their length, and with their outline.
     """
-    return remember(sample, "looks", _looks)
+    return sample.once("looks", lambda: _looks(sample))
 
 
 def _looks(sample: TrajectorySample) -> Mapping[KeyframeKind, TipLook]:
     taken: dict[KeyframeKind, TipLook] = {}
-    images: dict[KeyframeKind, Image] = {}
+    # Data sets decode a frame each time that it is asked for.
+    kept = sample.frames if isinstance(sample.frames, Frames) else Frames()
     for kind in KeyframeKind:
         detection = sample.detections.get(kind)
         frame = None if detection is None else sample.frames.get(kind)
         if detection is not None and frame is not None:
-            seen = look(frame, detection, sample.tip)
+            kept[kind] = frame
+            seen = look(kept, kind, detection, sample.tip)
             if not seen.washed_out:
-                images[kind], taken[kind] = frame, seen
+                taken[kind] = seen
     usual = _usual_length({kind: seen.profile.length for kind, seen in taken.items()})
     shape = _usual_outline(sample.tip, taken)
     for kind, seen in list(taken.items()):
@@ -112,7 +105,7 @@ def _looks(sample: TrajectorySample) -> Mapping[KeyframeKind, TipLook]:
         other = None if shape == seen.shape else shape
         if off or other is not None:
             length = usual if off else None
-            taken[kind] = look(images[kind], detection, sample.tip, length, other)
+            taken[kind] = look(kept, kind, detection, sample.tip, length, other)
     return taken
 
 

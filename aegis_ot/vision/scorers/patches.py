@@ -21,7 +21,6 @@ from ...errors import ModelError
 from ...vocabulary import KeyframeKind
 from ..column import Reference, TipLook, expected_top
 from ..column.profile import LANES
-from ..crops import remember
 from ..models import ModelFile
 from ..types import TrajectorySample
 from .looks import looks
@@ -174,7 +173,7 @@ def describe(sample: TrajectorySample) -> Array:
     Features: brightness against the places next to it, its spread within the patch, both
     colour differences against the tip as a whole, steepness along the tip. Brightness is log.
     """
-    return remember(sample, "patches", _describe)
+    return sample.once("patches", lambda: _describe(sample))
 
 
 def _describe(sample: TrajectorySample) -> Array:

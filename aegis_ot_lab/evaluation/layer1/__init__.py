@@ -4,15 +4,15 @@ from .bill import Bill
 from .evaluate import evaluate_layer1, score_predictions
 from .figures import draw_ablation
 from .labels import LABELS, Label, read_labels
-from .metrics import Interval, Scores
+from .metrics import BootstrapInterval, Scores
 from .predictions import Checking, Judge, Prediction
 from .result import Layer1Result
 
 __all__ = [
     "LABELS",
     "Bill",
+    "BootstrapInterval",
     "Checking",
-    "Interval",
     "Judge",
     "Label",
     "Layer1Result",

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from aegis_ot.reasoning import PriceTable, Reply, Usage
+from aegis_ot.reasoning import PriceTable, Reply, TokenUsage
 
 
 def cost_of(reply: Reply | None, prices: PriceTable) -> float | None:
@@ -16,9 +16,9 @@ def cost_of(reply: Reply | None, prices: PriceTable) -> float | None:
     ``None`` where that is not known: the model has no price, or an answer came without a count
     of its tokens, as imported ones may.
     """
-    if reply is None or (reply.usage == Usage() and not reply.answered):
+    if reply is None or (reply.usage == TokenUsage() and not reply.answered):
         return 0.0
-    if reply.usage == Usage():
+    if reply.usage == TokenUsage():
         return None
     return prices.cost(reply.model, reply.usage)
 
@@ -43,7 +43,7 @@ class Bill:
     models: tuple[str, ...]
     asked: int
     answered: int
-    usage: Usage
+    usage: TokenUsage
     median_input: float
     median_output: float
     cost: float | None
@@ -109,14 +109,14 @@ def bill_of(replies: Sequence[Reply | None], prices: PriceTable) -> Bill | None:
     if not asked:
         return None
     costs = [cost_of(reply, prices) for reply in asked]
-    counted = [reply.usage for reply in asked if reply.usage != Usage()]
+    counted = [reply.usage for reply in asked if reply.usage != TokenUsage()]
     unpriced = [r.model for r, cost in zip(asked, costs, strict=True) if cost is None]
     known = [cost for cost in costs if cost is not None]
     return Bill(
         models=tuple(dict.fromkeys(r.model for r in [r for r in asked if r.answered] or asked)),
         asked=len(asked),
         answered=sum(reply.answered for reply in asked),
-        usage=sum(counted, Usage()),
+        usage=sum(counted, TokenUsage()),
         median_input=statistics.median([u.total_input for u in counted] or [0]),
         median_output=statistics.median([u.output for u in counted] or [0]),
         cost=None if unpriced else sum(known),

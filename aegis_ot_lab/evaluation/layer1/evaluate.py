@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from aegis_ot.errors import DatasetError
-from aegis_ot.reasoning import PriceTable, Usage, load_prices
+from aegis_ot.reasoning import PriceTable, TokenUsage, load_prices
 from aegis_ot.vocabulary import Finding
 
 from .bill import bill_of, cost_of
@@ -14,7 +14,7 @@ from .labels import Label
 from .metrics import Scores, score
 from .overlap import Overlap, add_lines, add_wells
 from .predictions import Judge, Prediction
-from .result import Layer1Result, Row, RuleLevel
+from .result import Layer1Result, ProtocolRow, RuleLevel
 
 
 def evaluate_layer1(
@@ -134,10 +134,10 @@ def false_findings(label: Label, prediction: Prediction) -> list[Finding]:
     return [f for f in prediction.findings if f.rule not in label.acceptable]
 
 
-def _row(label: Label, prediction: Prediction, prices: PriceTable) -> Row:
+def _row(label: Label, prediction: Prediction, prices: PriceTable) -> ProtocolRow:
     citing = cite(label, prediction)
     reply = prediction.reply
-    return Row(
+    return ProtocolRow(
         file=label.file,
         labelled="fail" if label.is_bad else "pass",
         adjusted="fail" if label.is_bad_adjusted else "pass",
@@ -150,7 +150,7 @@ def _row(label: Label, prediction: Prediction, prices: PriceTable) -> Row:
         undecided=tuple(dict.fromkeys(u.rule for u in prediction.undecided)),
         problem=prediction.problem,
         seconds=prediction.seconds,
-        usage=reply.usage if reply else Usage(),
+        usage=reply.usage if reply else TokenUsage(),
         cost=cost_of(reply, prices),
         unanswered="" if reply is None or reply.answered else reply.state.value,
     )

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from .metrics import Interval
+from .metrics import BootstrapInterval
 from .result import Layer1Result
 
 ORDER = ("rules-only", "llm-only", "trace-blind", "hybrid")
@@ -60,7 +60,7 @@ def _draw(results: Sequence[Layer1Result], labels: str, path: Path) -> Path:
     return path
 
 
-def _bar(axes: Any, where: float, width: float, f1: Interval, colour: int) -> None:
+def _bar(axes: Any, where: float, width: float, f1: BootstrapInterval, colour: int) -> None:
     if f1.value is None:
         axes.text(where, 0.02, "not defined", rotation=90, ha="center", va="bottom", fontsize=7)
         return

@@ -83,7 +83,7 @@ def read_labels(folder: Path, families: Collection[str], rules: Collection[str])
         raise DatasetError(f"{path}: expected a list of objects, one per protocol.")
     if not data:
         raise DatasetError(f"{path}: the list is empty.")
-    reader = _Reader(folder, families, rules)
+    reader = _LabelReader(folder, families, rules)
     labels = [reader.label(number, item) for number, item in enumerate(data, start=1)]
     if reader.wrong:
         shown = "; ".join(reader.wrong[:_SHOWN])
@@ -92,7 +92,7 @@ def read_labels(folder: Path, families: Collection[str], rules: Collection[str])
     return labels
 
 
-class _Reader:
+class _LabelReader:
     def __init__(self, folder: Path, families: Collection[str], rules: Collection[str]) -> None:
         self._folder = folder
         self._families = families

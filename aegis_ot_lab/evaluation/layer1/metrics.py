@@ -13,7 +13,7 @@ Outcome = tuple[bool, bool]
 
 
 @dataclass(frozen=True)
-class Interval:
+class BootstrapInterval:
     """A figure with its 95 % bootstrap interval; ``None`` where it is not defined."""
 
     value: float | None
@@ -45,9 +45,9 @@ class Scores:
     false_positives: int
     false_negatives: int
     true_negatives: int
-    precision: Interval
-    recall: Interval
-    f1: Interval
+    precision: BootstrapInterval
+    recall: BootstrapInterval
+    f1: BootstrapInterval
 
 
 def score(outcomes: Sequence[Outcome], seed: int = 0, resamples: int = RESAMPLES) -> Scores:
@@ -101,9 +101,11 @@ def _f1(counts: Counts) -> float | None:
 
 def _interval(
     metric: Callable[[Counts], float | None], counts: Counts, samples: Sequence[Counts]
-) -> Interval:
+) -> BootstrapInterval:
     values = sorted(value for sample in samples if (value := metric(sample)) is not None)
     if not values:
-        return Interval(metric(counts), None, None)
+        return BootstrapInterval(metric(counts), None, None)
     last = len(values) - 1
-    return Interval(metric(counts), values[round(0.025 * last)], values[round(0.975 * last)])
+    return BootstrapInterval(
+        metric(counts), values[round(0.025 * last)], values[round(0.975 * last)]
+    )

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Protocol
 
 from aegis_ot.checking import CheckedProtocol, CheckSettings, check_files
-from aegis_ot.preflight import Database
+from aegis_ot.preflight import RuleSet
 from aegis_ot.reasoning import Reply
 from aegis_ot.vocabulary import Finding, Undecided, VerdictWord
 
@@ -56,19 +56,19 @@ class Checking:
     Args:
         settings: How to check; ``asking`` says with which model, in which configuration. Waivers
             and a baseline are left out: they would hide findings.
-        database: The rules.
+        rule_set: The rules.
     """
 
-    def __init__(self, settings: CheckSettings, database: Database) -> None:
+    def __init__(self, settings: CheckSettings, rule_set: RuleSet) -> None:
         self._settings = settings
-        self._database = database
+        self._rule_set = rule_set
 
     def __call__(
         self, files: Sequence[Path], done: Callable[[Prediction], None]
     ) -> list[Prediction]:
         """Check the files one after another."""
         run = check_files(
-            files, self._settings, self._database, lambda checked: done(_prediction(checked))
+            files, self._settings, self._rule_set, lambda checked: done(_prediction(checked))
         )
         return [_prediction(checked) for checked in run.protocols]
 

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
-from aegis_ot.reasoning import Usage
+from aegis_ot.reasoning import TokenUsage
 from aegis_ot.vocabulary import counted
 
 from .bill import Bill
@@ -42,7 +42,7 @@ class RuleLevel:
 
 
 @dataclass(frozen=True)
-class Row:
+class ProtocolRow:
     """One protocol.
 
     Attributes:
@@ -75,7 +75,7 @@ class Row:
     undecided: tuple[str, ...]
     problem: str
     seconds: float
-    usage: Usage = field(default_factory=Usage)
+    usage: TokenUsage = field(default_factory=TokenUsage)
     cost: float | None = 0.0
     unanswered: str = ""
 
@@ -106,17 +106,17 @@ class Layer1Result:
     family_right: int
     rules_strict: RuleLevel
     rules_adjusted: RuleLevel
-    rows: tuple[Row, ...]
+    rows: tuple[ProtocolRow, ...]
     model: str = ""
     bill: Bill | None = None
 
     @property
-    def unjudged(self) -> tuple[Row, ...]:
+    def unjudged(self) -> tuple[ProtocolRow, ...]:
         """Protocols that could not be judged."""
         return tuple(row for row in self.rows if row.problem)
 
     @property
-    def unanswered(self) -> tuple[Row, ...]:
+    def unanswered(self) -> tuple[ProtocolRow, ...]:
         """Protocols about which a model was asked in vain."""
         return tuple(row for row in self.rows if row.unanswered)
 
@@ -204,7 +204,7 @@ class Layer1Result:
         yield f"  lines     {self.rules_adjusted.lines}"
 
 
-def _mistakes(row: Row, names_rules: bool) -> Iterator[str]:
+def _mistakes(row: ProtocolRow, names_rules: bool) -> Iterator[str]:
     if row.problem:
         yield f"cannot be judged: {' '.join(row.problem.split())}"
         return

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from aegis_ot.vision.gates import Case, ConfirmingGate, GateDecision
+from aegis_ot.vision.gates import ConfirmingGate, GateDecision, GateInput
 from aegis_ot.vocabulary import counted
 
 
@@ -41,7 +41,7 @@ class ModelAnswers:
         return f"{counted(self.asked, 'well')}, answered {self.answered}"
 
 
-class Counted:
+class CountedGate:
     """A gate that asks a model, and counts.
 
     Args:
@@ -53,7 +53,7 @@ class Counted:
         self.answers = ModelAnswers()
         self._asking = asking
 
-    def examine(self, case: Case) -> GateDecision:
+    def examine(self, case: GateInput) -> GateDecision:
         """Its word, unchanged."""
         decision = self._asking.examine(case)
         so_far = self.answers

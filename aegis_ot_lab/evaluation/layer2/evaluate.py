@@ -17,7 +17,7 @@ from aegis_ot.worldmodel.leave_one_out import hold_out
 from aegis_ot.worldmodel.tips import FoundTips, find_tips
 
 from ...scorers import BASELINES, make_scorer
-from .answers import Counted, ModelAnswers
+from .answers import CountedGate, ModelAnswers
 from .result import Layer2Result, summarise
 
 PROTOCOLS = ("lopo", "cascade")
@@ -83,9 +83,9 @@ def evaluate_layer2(
     settled: Counter[str] = Counter()
     model: ModelAnswers | None = None
     if protocol == "cascade":
-        counting = [Counted(gate) for gate in gates]
+        counting = [CountedGate(gate) for gate in gates]
         judged = [well for well in run_cascade(held, counting, tips.finder) if not well.calibration]
-        model = next((gate.answers for gate in counting if gate.gate is Gate.VLM), None)
+        model = next((gate.answers for gate in counting if gate.gate.traits.is_model), None)
         wells = [well.scored for well in judged]
         routed = [well.to_gate for well in judged]
         flagged = [well.flagged for well in judged]

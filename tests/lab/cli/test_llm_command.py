@@ -47,3 +47,21 @@ def test_answers_that_cannot_be_used_are_told(tmp_path: Path) -> None:
     done = runner.invoke(app, ["llm", "import", str(responses), "--out", str(tmp_path / "r")])
     assert done.exit_code == 2
     assert "line 1" in done.output
+
+
+def test_an_answer_that_quotes_what_the_source_does_not_say_is_not_kept(tmp_path: Path) -> None:
+    (tmp_path / "b.py").write_text(SILENT)
+    out, responses = tmp_path / "requests.jsonl", tmp_path / "responses.jsonl"
+    runner.invoke(app, ["llm", "export", str(tmp_path / "b.py"), "--out", str(out)])
+    number, line = next((n, t) for n, t in enumerate(SILENT.splitlines(), 1) if "load_labware" in t)
+    cited = {"role": "template", "wells": ["2:A1"], "levels": []}
+    cited["citations"] = [{"line": number + 1, "quote": line.strip()[:40]}]
+    given = {"about": "b.py", "answer": answer(roles=[cited])}
+    responses.write_text(json.dumps(given))
+    done = runner.invoke(
+        app,
+        ["llm", "import", str(responses), "--out", str(tmp_path / "r"), "--requests", str(out)],
+    )
+    assert done.exit_code == 2
+    assert f"does not stand at line {number + 1}" in " ".join(done.output.split())
+    assert not list((tmp_path / "r").glob("*.json"))

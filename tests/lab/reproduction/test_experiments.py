@@ -10,7 +10,7 @@ from aegis_ot.reasoning import ScriptedBackend
 from aegis_ot.vision.models import SHIPPED
 from aegis_ot.vision.reach import wilson
 from aegis_ot_lab.drawing import write_dataset
-from aegis_ot_lab.reproduction import Context, Options, calibration, layer1, live, rules
+from aegis_ot_lab.reproduction import Context, ReproductionOptions, calibration, layer1, live, rules
 from aegis_ot_lab.reproduction import components as components_
 from aegis_ot_lab.reproduction.experiment import NOT_RUN
 from aegis_ot_lab.reproduction.layer1 import NO_MODEL
@@ -18,7 +18,7 @@ from aegis_ot_lab.reproduction.layer1 import NO_MODEL
 
 @pytest.fixture
 def context(tmp_path: Path) -> Context:
-    return Context(Options(tmp_path, replicates=1, plates=4))
+    return Context(ReproductionOptions(tmp_path, replicates=1, plates=4))
 
 
 @pytest.mark.parametrize(
@@ -31,7 +31,7 @@ def test_wilsons_interval_is_that_of_the_paper(hits: int, low: float, high: floa
 
 def test_rules_and_benchmark_are_counted(context: Context) -> None:
     outcome = rules.EXPERIMENT.run(context)
-    assert outcome.answers["rules"] == ("22 over 5 assay families",)
+    assert outcome.answers["rules"] == ("33 over 7 assay families",)
     assert outcome.figures["correct"] == 11
     assert sum(outcome.figures["with_several_bugs"].values()) == 8
 
@@ -44,7 +44,7 @@ def test_the_band_routes_what_is_known_of_it(
     for shares in first.figures["routed"].values():
         assert shares[0] == pytest.approx(0.72, abs=0.06)
     assert first.figures == again.figures, "same seed, same numbers"
-    other = calibration.EXPERIMENT.run(Context(Options(context.options.out, seed=1)))
+    other = calibration.EXPERIMENT.run(Context(ReproductionOptions(context.options.out, seed=1)))
     assert other.figures != first.figures
 
 
@@ -68,7 +68,7 @@ def test_layer_1_without_a_model_says_what_was_not_run(
 
 
 def test_a_model_that_gives_no_answer_is_not_scored(tmp_path: Path, one_protocol: None) -> None:
-    outcome = layer1.EXPERIMENT.run(Context(Options(tmp_path), [ScriptedBackend([])]))
+    outcome = layer1.EXPERIMENT.run(Context(ReproductionOptions(tmp_path), [ScriptedBackend([])]))
     rows = {row[0]: row for row in outcome.tables[0].rows}
     assert rows["hybrid"][2].startswith(f"{NOT_RUN}: the model gave no answer")
     assert outcome.answers["llm-only"] == (rows["llm-only"][2],)
@@ -94,7 +94,7 @@ def test_the_live_matrix_counts_what_is_held_and_is_the_same_again(
 
 def test_a_set_of_ones_own_takes_the_simulated_ones_place(tmp_path: Path) -> None:
     folder = write_dataset(tmp_path / "mine", 4, 3, "p1000", size=(320, 240))
-    context = Context(Options(tmp_path / "out", data=(folder,)))
+    context = Context(ReproductionOptions(tmp_path / "out", data=(folder,)))
     outcome = components_.EXPERIMENT.run(context)
     assert outcome.data == ("simulated: mine, 17 trajectories on 4 plates",)
     assert set(outcome.figures) == {"mine"}

@@ -13,15 +13,15 @@ from aegis_ot_lab.reproduction import (
     EXPERIMENTS,
     Context,
     Experiment,
-    Options,
-    Outcome,
+    ExperimentOutcome,
+    ReproductionOptions,
     reproduce,
     reproduction_html,
     reproduction_json,
     runner,
 )
 from aegis_ot_lab.reproduction.context import source_files
-from aegis_ot_lab.reproduction.experiment import NOT_RUN, Picture, table
+from aegis_ot_lab.reproduction.experiment import NOT_RUN, ExperimentPicture, table
 from aegis_ot_lab.reproduction.paper import ROWS
 
 PNG = bytes.fromhex("89504e470d0a1a0a")
@@ -34,24 +34,24 @@ class Counting:
         self.runs, self.error = 0, error
         self.experiment = Experiment(name, f"Title of {name}", "SI", ("fleet",), uses, self.run)
 
-    def run(self, context: Context) -> Outcome:
+    def run(self, context: Context) -> ExperimentOutcome:
         self.runs += 1
         if self.error is not None:
             raise self.error
         picture = context.pictures(self.experiment.name) / "drawn.png"
         picture.write_bytes(PNG)
-        return Outcome(
+        return ExperimentOutcome(
             ("simulated: three frames",),
             {"fleet": (f"answer of {self.experiment.name}",)},
             (table("A table", ("a", "b"), [(1, f"{NOT_RUN}: no model")]),),
-            (Picture(context.picture(picture), "A picture"),),
+            (ExperimentPicture(context.picture(picture), "A picture"),),
             ("A note.",),
             {"seed": context.options.seed},
         )
 
 
 def play(out: Path, *experiments: Counting, only: str = "", **options: object):  # type: ignore[no-untyped-def]
-    context = Context(Options(out, **options))  # type: ignore[arg-type]
+    context = Context(ReproductionOptions(out, **options))  # type: ignore[arg-type]
     told: list[str] = []
     pages: list[str] = []
     entries = reproduce(
@@ -157,4 +157,4 @@ def test_the_page_says_what_each_figure_stands_on(tmp_path: Path) -> None:
 
 def test_a_result_is_kept_for_the_code_of_both_packages() -> None:
     made_by = {path.parent.name + "/" + path.name for path in source_files()}
-    assert {"vision/monitor.py", "reproduction/live.py", "drawing/plans.py"} <= made_by
+    assert {"vision/run_analyser_factory.py", "reproduction/live.py", "drawing/plans.py"} <= made_by

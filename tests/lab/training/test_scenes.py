@@ -6,7 +6,12 @@ import numpy as np
 import pytest
 
 from aegis_ot_lab.training.axes import TipLabel
-from aegis_ot_lab.training.examples import Example, close_up_example, overview_example, targets
+from aegis_ot_lab.training.examples import (
+    TrainingExample,
+    close_up_example,
+    overview_example,
+    targets,
+)
 from aegis_ot_lab.training.scenes import SIZES, draw_frame
 
 
@@ -83,10 +88,10 @@ def test_an_overview_keeps_the_label_on_its_pixels() -> None:
 def test_a_mirrored_example_mirrors_its_label() -> None:
     image = np.zeros((64, 96, 3), np.uint8)
     image[20, 10] = 255
-    mirrored = Example(image, TipLabel((10.5, 20.5), (12.5, 50.5), 4.0)).mirrored()
+    mirrored = TrainingExample(image, TipLabel((10.5, 20.5), (12.5, 50.5), 4.0)).mirrored()
     assert mirrored.label is not None
     assert mirrored.image[20, int(mirrored.label.collar[0])].min() == 255
-    assert Example(image, None).mirrored().label is None
+    assert TrainingExample(image, None).mirrored().label is None
 
 
 def test_targets_are_hot_at_the_two_ends_only() -> None:
@@ -103,7 +108,7 @@ def test_targets_are_hot_at_the_two_ends_only() -> None:
 def test_a_part_of_an_example_keeps_the_label_on_its_pixels(seed: int) -> None:
     image = np.zeros((224, 384, 3), np.uint8)
     image[60, 200] = 255
-    whole = Example(image, TipLabel((200.5, 60.5), (203.5, 120.5), 4.0))
+    whole = TrainingExample(image, TipLabel((200.5, 60.5), (203.5, 120.5), 4.0))
     part = whole.cropped(np.random.default_rng(seed), 192, 256)
     assert part.image.shape == (192, 256, 3)
     assert part.label is not None
@@ -114,7 +119,7 @@ def test_a_part_of_an_example_keeps_the_label_on_its_pixels(seed: int) -> None:
 
 
 def test_a_small_example_is_not_cut() -> None:
-    example = Example(np.zeros((256, 96, 3), np.uint8), None)
+    example = TrainingExample(np.zeros((256, 96, 3), np.uint8), None)
     assert example.cropped(np.random.default_rng(0), 192, 256) is example
 
 

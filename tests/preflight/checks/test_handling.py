@@ -8,7 +8,7 @@ import textwrap
 import pytest
 
 from aegis_ot.errors import RehearsalError
-from aegis_ot.preflight import Report, Script, check_script, load_database, record
+from aegis_ot.preflight import Report, Script, check_script, load_rules, record
 from aegis_ot.vocabulary import Finding
 
 OT2 = """
@@ -43,7 +43,7 @@ def run(ctx):
 
 @functools.cache
 def checked(text: str) -> Report:
-    return check_script(Script(text, "p.py"), load_database())
+    return check_script(Script(text, "p.py"), load_rules())
 
 
 def found(report: Report, rule: str) -> list[Finding]:
@@ -365,6 +365,40 @@ def test_a_tube_holds_no_more_than_its_brim(level: str) -> None:
     assert not found(report, "GEN-3")
 
 
+@pytest.mark.parametrize(
+    ("name", "severity"), [("Buffer reservoir", "warning"), ("Buffers", "error")]
+)
+def test_a_plate_s_definition_for_a_reservoir_says_not_what_that_holds(
+    name: str, severity: str
+) -> None:
+    code = f"""
+        stand_in = ctx.load_labware("biorad_96_wellplate_200ul_pcr", 10, "{name}")
+        for well in plate.rows()[0][:3]:
+            m300.transfer(250, stand_in["A1"], well)
+    """
+    assert told(ot2(code), "HND-6").startswith(severity)
+
+
+@pytest.mark.parametrize(("height", "severity"), [(40, "warning"), (5, "error")])
+def test_a_vessel_that_is_taller_than_its_definition_holds_more(height: int, severity: str) -> None:
+    code = f"""
+        for _ in range(3):
+            pip.transfer(100, small["A1"], small["P24"].top({height}))
+    """
+    assert told(ot2(code), "HND-6").startswith(severity)
+
+
+@pytest.mark.parametrize(("targets", "severity"), [(1, "warning"), (2, "error")])
+def test_what_is_moved_on_as_a_whole_may_be_swept_up(targets: int, severity: str) -> None:
+    code = f"""
+        small["A1"].load_liquid(ctx.define_liquid("sample", "", "#f00"), 10)
+        pip.transfer(70, trough["A1"], small["A1"])
+        pip.transfer(70, small["A1"], plate["A1"])
+        pip.transfer(100, small["A1"], plate.wells()[{targets} - 1])
+    """
+    assert told(ot2(code, "2.15"), "HND-6").startswith(severity)
+
+
 def test_what_is_refilled_suffices() -> None:
     code = """
         pip.transfer(200, tubes["A1"], plate.wells()[:7], new_tip="once")
@@ -399,6 +433,7 @@ def test_a_filter_plate_holds_nothing() -> None:
     """
     assert told(ot2(code.format("assay plate")), "GEN-3").startswith("error")
     assert not told(ot2(code.format("filter plate on vacuum")), "GEN-3")
+    assert not told(ot2(code.format("Vacuum rack, GeneJet columns")), "GEN-3")
 
 
 @pytest.mark.parametrize(
@@ -415,3 +450,57 @@ def test_a_pipette_without_racks_is_told_as_that(racks: str, layout: str, said: 
     )
     with pytest.raises(RehearsalError, match=f"the pipette has no tip rack: {said}"):
         record(Script(text + body(f"{layout}\npip.pick_up_tip()"), "p.py"))
+
+
+FILTERS = """
+filters = ctx.load_labware("opentrons_96_filtertiprack_200ul", 10)
+pip.tip_racks = [filters]
+"""
+
+
+@pytest.mark.parametrize("level", ["2.13", "2.20"])
+@pytest.mark.parametrize(
+    ("call", "left_out"),
+    [
+        (
+            "distribute(190, trough['A1'], plate.rows()[0][:6])",
+            ["A1", "A2", "A3", "A4", "A5", "A6"],
+        ),
+        ("distribute([50, 60, 190, 40], trough['A1'], plate.rows()[0][:4])", ["A3", "A4"]),
+        ("consolidate([50, 250, 60], trough.wells()[:3], deep['A1'])", ["A2", "A3"]),
+        ("distribute([90, 0, 60], trough['A1'], [w.top(-1) for w in plate.rows()[0][:3]])", []),
+        ("distribute(60, trough['A1'], plate.columns()[0])", []),
+        ("consolidate(50, trough.wells()[:3], deep['A1'])", []),
+    ],
+)
+def test_a_call_that_ends_without_a_word_is_told(
+    call: str, left_out: list[str], level: str
+) -> None:
+    report = ot2(f"{FILTERS}\npip.{call}", level)
+    findings = found(report, "HND-4")
+    assert [well.name for one in findings for well in one.wells] == left_out
+    assert all("ends without a word" in one.message for one in findings)
+
+
+def test_eight_channels_reach_the_whole_columns_that_are_named() -> None:
+    assert not found(ot2("m300.distribute(40, trough['A1'], plate.columns()[:3])"), "HND-4")
+
+
+@pytest.mark.parametrize(("label", "severity"), [("half loaded tips", ""), ("tips", "warning")])
+def test_every_other_tip_may_be_left_out_of_the_rack(label: str, severity: str) -> None:
+    report = ot2(
+        f"""
+        rack = ctx.load_labware("opentrons_96_tiprack_300ul", 10, "{label}")
+        m300.tip_racks = [rack]
+        culture = ctx.load_labware("corning_24_wellplate_3.4ml_flat", 11)
+        for n in (1, 2):
+            for source, well in ((f"A{{n}}", f"A{{n}}"), (f"A{{n + 2}}", f"B{{n}}")):
+                m300.pick_up_tip()
+                m300.aspirate(50, culture[source])
+                m300.dispense(50, plate[well])
+                m300.drop_tip()
+        """
+    )
+    on_the_plate = [one for one in found(report, "HND-1") if one.wells[0].slot == "1"]
+    assert {one.severity.value for one in on_the_plate} == {severity} - {""}
+    assert severity or not found(report, "HND-1")

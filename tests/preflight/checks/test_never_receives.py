@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from aegis_ot.preflight import Report, Script, check_script, load_database
+from aegis_ot.preflight import Report, Script, check_script, load_rules
 
 PROTOCOL = '''"""Two loci on four extracts; what differs between the loci is in D5 and D6."""
 
@@ -31,7 +31,7 @@ def run(ctx):
 
 def _undecided(first: str, second: str) -> dict[str, str]:
     report: Report = check_script(
-        Script(PROTOCOL.format(first=first, second=second), "loci.py"), load_database()
+        Script(PROTOCOL.format(first=first, second=second), "loci.py"), load_rules()
     )
     assert not [found for found in report.findings if found.rule != "PCR-6"]
     return {undecided.rule: undecided.reason for undecided in report.undecided}

@@ -254,6 +254,7 @@ def test_dye_that_no_well_is_mixed_behind_is_left_to_a_shaker() -> None:
     found = broken(case_of(bench.trace(), "bradford", roles), "BRD-4")
     assert wells(found) == {"plate:A1", "plate:B1"}
     assert all("by hand" in one.warning for one in found)
+    assert len({one.cause for one in found}) == 1  # told once, whatever lines add the dye
     bench.pick()
     for _ in range(3):
         bench.draw("plate:A1", 50, mixing=True)

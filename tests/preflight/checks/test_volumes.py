@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from aegis_ot.preflight import Report, Script, check_script, load_database
+from aegis_ot.preflight import Report, Script, check_script, load_rules
 
 PROTOCOL = """
 metadata = {{"apiLevel": "2.15"}}
@@ -23,7 +23,7 @@ def run(ctx):
 
 def _check(meanwhile: str, volume: float) -> tuple[set[str], str]:
     text = PROTOCOL.format(meanwhile=meanwhile, volume=volume)
-    report: Report = check_script(Script(text, "fill.py"), load_database())
+    report: Report = check_script(Script(text, "fill.py"), load_rules())
     undecided = {undecided.rule: undecided.reason for undecided in report.undecided}
     return {finding.rule for finding in report.findings}, undecided.get("GEN-3", "")
 

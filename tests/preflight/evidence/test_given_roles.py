@@ -9,7 +9,7 @@ from dataclasses import replace
 import pytest
 
 from aegis_ot.errors import ConfigurationError
-from aegis_ot.preflight import Options, Reading, Report, Script, judge, load_database, record
+from aegis_ot.preflight import Interpretation, Options, Report, Script, judge, load_rules, record
 from aegis_ot.preflight.check_protocol import summary
 from aegis_ot.preflight.rehearsal import Recording
 
@@ -34,7 +34,7 @@ def recording() -> Recording:
 
 def told(**roles: str) -> Report:
     given = {role: (place,) for role, place in roles.items()}
-    return judge(Reading(recording(), load_database(), Options(roles=given)))
+    return judge(Interpretation(recording(), load_rules(), Options(roles=given)))
 
 
 @pytest.mark.parametrize(
@@ -74,7 +74,7 @@ def test_of_a_typo_the_nearest_names_are_told() -> None:
 def test_labware_that_a_parameter_may_bring_is_only_remarked() -> None:
     text = f"{recording().text}\n\ndef add_parameters(parameters): pass\n"
     options = Options(roles={"ntc": ("second plate:A1",)})
-    report = judge(Reading(replace(recording(), text=text), load_database(), options))
+    report = judge(Interpretation(replace(recording(), text=text), load_rules(), options))
     assert ["second plate" in remark.message for remark in report.remarks] == [True]
     assert "1 remark" in summary(report)
 
@@ -82,7 +82,7 @@ def test_labware_that_a_parameter_may_bring_is_only_remarked() -> None:
 def test_a_run_that_goes_on_is_not_ended_by_a_typo() -> None:
     options = Options(roles={"ntc": ("PCR plate:H13",)})
     for so_far in (True, False):
-        report = judge(Reading(recording(), load_database(), options), so_far=so_far)
+        report = judge(Interpretation(recording(), load_rules(), options), so_far=so_far)
         assert any("H13" in remark.message for remark in report.remarks)
 
 

@@ -6,8 +6,8 @@ import textwrap
 
 import pytest
 
-from aegis_ot.preflight import Options, Script, load_database, record
-from aegis_ot.preflight.judging import Reading, Report, judge
+from aegis_ot.preflight import Options, Script, load_rules, record
+from aegis_ot.preflight.judging import Interpretation, Report, judge
 from aegis_ot.vocabulary import Severity
 
 DECK = """
@@ -30,7 +30,7 @@ def run(protocol):
 def _report(body: str, trough: str = "reagents", assay: tuple[str, ...] = ()) -> Report:
     inside = textwrap.indent(textwrap.dedent(body).strip("\n"), "    ")
     script = Script(DECK.format(body=inside, trough=trough), "protocol.py")
-    return judge(Reading(record(script), load_database(), Options(assay=assay)))
+    return judge(Interpretation(record(script), load_rules(), Options(assay=assay)))
 
 
 def _told(report: Report) -> dict[str, Severity]:

@@ -7,8 +7,8 @@ from collections.abc import Mapping, Sequence
 
 import pytest
 
-from aegis_ot.preflight import Options, Script, load_database, record
-from aegis_ot.preflight.judging import Reading, Report, judge
+from aegis_ot.preflight import Options, Script, load_rules, record
+from aegis_ot.preflight.judging import Interpretation, Report, judge
 from aegis_ot.settings import Settings
 from aegis_ot.vocabulary import VerdictWord
 
@@ -47,7 +47,7 @@ def checked(
 ) -> Report:
     text = DECK.format(head=head, title=title, body=textwrap.indent(body.strip("\n"), "    "))
     options = Options(assay=tuple(assay), roles=roles or {})
-    return judge(Reading(record(Script(text, "protocol.py")), load_database(), options))
+    return judge(Interpretation(record(Script(text, "protocol.py")), load_rules(), options))
 
 
 def test_a_role_that_no_well_has_is_said_by_an_empty_list() -> None:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from aegis_ot.preflight import Options, Script, load_database, record
-from aegis_ot.preflight.judging import Reading, Report, judge
+from aegis_ot.preflight import Options, Script, load_rules, record
+from aegis_ot.preflight.judging import Interpretation, Report, judge
 from aegis_ot.vocabulary import VerdictWord
 
 HELPER = """
@@ -32,7 +32,7 @@ def run(protocol):
 
 def checked(text: str) -> Report:
     recording = record(Script(text, "protocol.py"))
-    return judge(Reading(recording, load_database(), Options(assay=("pcr",))))
+    return judge(Interpretation(recording, load_rules(), Options(assay=("pcr",))))
 
 
 def test_of_a_function_that_several_lines_call_the_call_is_told() -> None:

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from aegis_ot.preflight import Options, Script, load_database, record
-from aegis_ot.preflight.judging import Reading, Report, judge
+from aegis_ot.preflight import Options, Script, load_rules, record
+from aegis_ot.preflight.judging import Interpretation, Report, judge
 
 SHELF = Path(__file__).parents[3] / "examples" / "prose-benchmark"
 FILES = sorted(SHELF.glob("p*.py"))[::8]
@@ -28,11 +28,11 @@ def _errors(report: Report) -> set[tuple[str, str]]:
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
 def test_what_is_offered_hides_nothing(path: Path) -> None:
     recording = record(Script(path.read_text(encoding="utf-8"), path.name))
-    database, options = load_database(), Options()
-    before = judge(Reading(recording, database, options))
+    rule_set, options = load_rules(), Options()
+    before = judge(Interpretation(recording, rule_set, options))
     for line in {one.paste for one in before.undecided if one.paste.startswith(OFFER)}:
         if "= ..." in line:
             continue  # concentrations are left to write, and without them it is refused
         roles = json.loads(line[len(OFFER) : -1])
-        after = judge(Reading(recording, database, replace(options, roles=roles)))
+        after = judge(Interpretation(recording, rule_set, replace(options, roles=roles)))
         assert _errors(before) <= _errors(after), line

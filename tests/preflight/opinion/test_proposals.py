@@ -6,9 +6,9 @@ import functools
 
 import pytest
 
-from aegis_ot.preflight import Options, load_database, record
+from aegis_ot.preflight import Options, load_rules, record
 from aegis_ot.preflight.evidence import Evidence, Kind
-from aegis_ot.preflight.judging import Reading
+from aegis_ot.preflight.judging import Interpretation
 from aegis_ot.preflight.opinion.proposals import verify_proposals
 from aegis_ot.preflight.rehearsal import Script
 from aegis_ot.vocabulary import Citation, RoleProposal
@@ -41,8 +41,8 @@ def run(protocol):
 
 
 @functools.cache
-def read(text: str) -> Reading:
-    return Reading(record(Script(text, "protocol.py")), load_database(), Options())
+def read(text: str) -> Interpretation:
+    return Interpretation(record(Script(text, "protocol.py")), load_rules(), Options())
 
 
 def verified(*proposals: RoleProposal, text: str = PROTOCOL) -> tuple[list[Evidence], list[str]]:
@@ -212,3 +212,21 @@ def test_levels_that_do_not_stand(told: tuple[str, ...], why: str) -> None:
 def test_the_number_of_a_well_is_no_level() -> None:
     told = reason(levels("11", line=3, quote="Well B11 counts 12"), STANDARDS)
     assert "the level '11' stands in no quote" in told
+
+
+def test_levels_may_be_told_once_for_each_column() -> None:
+    quote = "BSA standards: 2000, 1000, 500 and 250 ug/mL"
+    text = STANDARDS.replace(
+        "rack.wells()[:5], plate.wells()[:5]", "rack['A1'], plate.wells()[:16]"
+    )
+    one = said("standard_well", "4:A1-H2", 2, quote, ("2000 ug/mL", "1000 ug/mL"))
+    (evidence,), rejected = verified(one, text=text)
+    assert rejected == []
+    assert evidence.levels == (2.0,) * 8 + (1.0,) * 8
+    two_columns_three_levels = said("standard_well", "4:A1-H2", 2, quote, ("2000", "1000", "500"))
+    assert "3 levels for 16 wells" in reason(two_columns_three_levels, text)
+
+
+def test_a_quote_one_line_off_is_told_where_it_stands() -> None:
+    told = reason(said("template", "2:A2", line=3))
+    assert told.endswith("'genomic DNA' does not stand at line 3; it stands at line 2")

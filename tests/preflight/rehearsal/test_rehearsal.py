@@ -39,17 +39,25 @@ def test_what_was_recorded_goes_to_another_process():
     assert pickle.loads(pickle.dumps(recording)) == recording
 
 
+def test_a_plunger_s_speed_is_set_as_on_a_robot_of_older_levels():
+    text = script(
+        "p20 = protocol.load_instrument('p20_single_gen2', 'left')\n"
+        "p20.speed.aspirate = 2 * p20.speed.dispense"
+    ).text
+    assert record(Script(text.replace("2.15", "2.13"), "protocol.py")).log is not None
+    with pytest.raises(RehearsalError, match="flow_rate"):
+        record(Script(text, "protocol.py"))
+
+
 class TestVirtualTime:
     def test_sleeps_pass_at_once_and_the_clocks_know(self):
-        began = time.monotonic()
         names = executed(
             "import time, time as t\nfrom time import sleep, monotonic\n"
             "a, b, c = time.time(), monotonic(), time.perf_counter()\n"
-            "sleep(100); t.sleep(200)\n"
+            "sleep(100_000); t.sleep(200_000)\n"
             "gone = (time.time() - a, monotonic() - b, time.perf_counter() - c)\n"
         )
-        assert time.monotonic() - began < 5
-        assert names["gone"] == pytest.approx((300, 300, 300), abs=5)
+        assert names["gone"] == pytest.approx((300_000,) * 3, abs=1000)
 
     def test_waiting_for_the_clock_ends(self):
         executed("import time\nend = time.time() + 3600\nwhile time.time() < end: time.sleep(10)\n")
@@ -65,9 +73,7 @@ class TestVirtualTime:
         assert dict(vars(time)) == before
 
     def test_a_rehearsal_uses_it(self):
-        began = time.monotonic()
-        record(script("sleep(30)\ntime.sleep(30)"))
-        assert time.monotonic() - began < 10
+        record(script("sleep(30_000)\ntime.sleep(30_000)"))
 
 
 class TestInterruption:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from aegis_ot.preflight import Options, Script, load_database, record
-from aegis_ot.preflight.judging import Reading
+from aegis_ot.preflight import Options, Script, load_rules, record
+from aegis_ot.preflight.judging import Interpretation
 
 from ..reading import read, roles_by_well
 
@@ -24,7 +24,7 @@ def test_a_loaded_liquid_beats_a_name() -> None:
 def test_what_the_guard_is_given_beats_all() -> None:
     text = read("ntc = plate['A1']\np20.transfer(2, tubes['A1'], ntc)").recording.text
     options = Options(assay=("pcr",), roles={"positive_reaction": ["1:A1"]})
-    reading = Reading(record(Script(text, "p.py")), load_database(), options)
+    reading = Interpretation(record(Script(text, "p.py")), load_rules(), options)
     assert roles_by_well(reading)["1:A1"] == "positive_reaction"
 
 
@@ -124,3 +124,18 @@ def test_a_mix_that_is_filled_and_given_on_is_a_mix() -> None:
         """
     )
     assert roles_by_well(reading)["2:C1"] == "master_mix"
+
+
+@pytest.mark.parametrize(("named", "sample"), [("[:1]", True), ("[:6]", False)])
+def test_a_column_named_well_by_well_leaves_out_what_is_not_named(named: str, sample: bool) -> None:
+    reading = read(
+        f"""
+        m300 = protocol.load_instrument("p300_multi_gen2", "right", tip_racks=[tips])
+        samples = plate.columns()[0]{named}
+        protocol.comment(str(samples))
+        m300.transfer(20, tubes["A1"], plate["A1"])
+        """
+    )
+    roles = roles_by_well(reading)
+    assert roles["1:A1"] == "reaction"
+    assert ("1:H1" in roles) is sample

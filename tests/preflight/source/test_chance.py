@@ -23,6 +23,14 @@ def found(body: str) -> dict[str, int]:
             "import random\nrandom.shuffle(wells)\nfor well in wells: p.transfer(5, a, well)",
             "random",
         ),
+        ("import random\nr = random.Random()\nr.shuffle(ws)\np.transfer(5, a, ws)", "random"),
+        ("import os\nws.sort(key=lambda w: os.urandom(2))\np.transfer(5, a, ws)", "random"),
+        ("import random\nws.append(random.choice(b))\np.transfer(5, a, ws)", "random"),
+        (
+            "import time\nif time.localtime().tm_hour > 12: ws.reverse()\np.transfer(5, a, ws)",
+            "clock",
+        ),
+        ("import time\nif time.time() > t:\n    n = 5\np.mix(n, 20)", "clock"),
         ("from random import choice as pick\np.dispense(5, plate[pick('ABC') + '1'])", "random"),
         ("import numpy as np\nn = np.random.randint(9)\np.mix(n, 20)", "random"),
         ("if p.is_simulating():\n    return_ = 1\nelse:\n    p.drop_tip()", "is_simulating"),
@@ -54,6 +62,8 @@ def test_what_decides_moves_is_told_with_its_line(body, what):
         "if not c.is_simulating():\n    take_a_picture()\np.aspirate(5, a)",
         "import json\nwith open(f) as h:\n    d = json.load(h)\n"
         "plate = c.load_labware_from_definition(d, 1)\np.aspirate(5, plate['A1'])",
+        "import random\nr = random.Random(4)\nr.shuffle(ws)\np.transfer(5, a, ws)",
+        "if not c.is_simulating():\n    seen.append(1)\np.aspirate(5, a)",
         "def random(x): return x\np.aspirate(random(5), a)",
         "p.transfer(5, a, b)  # in random order",
     ],

@@ -8,7 +8,7 @@ from dataclasses import replace
 import pytest
 
 from aegis_ot.instrumentation import LabwareInfo, WellInfo
-from aegis_ot.preflight import Report, Script, check_script, load_database
+from aegis_ot.preflight import Report, Script, check_script, load_rules
 from aegis_ot.preflight.trace.pauses import Intervention, read_pause
 
 PROTOCOL = """
@@ -30,9 +30,7 @@ def run(ctx):
 
 
 def _check(message: str) -> set[str]:
-    report: Report = check_script(
-        Script(PROTOCOL.format(message=message), "pcr.py"), load_database()
-    )
+    report: Report = check_script(Script(PROTOCOL.format(message=message), "pcr.py"), load_rules())
     return {finding.rule for finding in report.findings}
 
 
@@ -87,7 +85,7 @@ def _read(message: str) -> Intervention:
     trough = replace(plate, key="trough", slot="3", centers_channels=True)
     labware = {info.key: info for info in (tips, plate, trough)}
     slots = {key: info.slot for key, info in labware.items()}
-    return read_pause(message, load_database().common.pauses, labware, slots)
+    return read_pause(message, load_rules().common.pauses, labware, slots)
 
 
 def test_a_plate_and_tips_may_be_told_together() -> None:

@@ -6,8 +6,8 @@ import textwrap
 
 import pytest
 
-from aegis_ot.preflight.database import load_database
 from aegis_ot.preflight.rehearsal import Script, record
+from aegis_ot.preflight.rule_set import load_rules
 from aegis_ot.preflight.trace import Trace, Visit, Well, build_trace
 from tests.support.rehearsing import flex, ot2
 
@@ -16,7 +16,7 @@ COLUMN = "ABCDEFGH"
 
 def traced(text: str) -> Trace:
     recording = record(Script(textwrap.dedent(text), "protocol.py"))
-    return build_trace(recording.log, recording.labware, load_database().common.pauses)
+    return build_trace(recording.log, recording.labware, load_rules().common.pauses)
 
 
 def well(trace: Trace, address: str) -> Well:
@@ -366,6 +366,8 @@ def test_declared_liquids_in_all_their_ways() -> None:
             plate.load_liquid_by_well({"B1": 10, "B2": 20}, water)
             plate["C1"].load_liquid(water, 30)
             plate.load_empty(["D1"])
+            plate["G1"].load_liquid(protocol.define_liquid("Empty tube", "", "#ffffff"), 1)
+            plate["H1"].load_liquid(protocol.define_liquid("Empty vector", "", "#ffffff"), 1)
             single.pick_up_tip()
             single.aspirate(25, plate["B2"])
             single.dispense(25, plate["E1"])
@@ -378,8 +380,10 @@ def test_declared_liquids_in_all_their_ways() -> None:
     declared = {one.ref.name: one.declared for one in trace.wells.values()}
     assert declared == {
         "A1": 50, "A2": 50, "B1": 10, "B2": 20, "C1": 30, "D1": 0, "E1": None, "F1": None,
+        "G1": 0, "H1": 1,
     }  # fmt: skip
     assert well(trace, "D1:A1").liquids == ["Water"]
+    assert well(trace, "D1:G1").liquids == []
     assert trace.descriptions == {"Water": "from the tap"}
     # Declared to be empty is known; a well that nobody spoke of may have held anything.
     assert [(item.visit.well.ref.name, item.limit) for item in trace.imbalances] == [

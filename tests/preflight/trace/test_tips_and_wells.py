@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
-from aegis_ot.instrumentation import EventKind
+from aegis_ot.instrumentation import EventKind, WellInfo
 from aegis_ot.preflight.trace import Contact
+from aegis_ot.preflight.trace.plates import Plates
 from aegis_ot.preflight.trace.tips import TipBox
 from aegis_ot.vocabulary import WellRef
-from tests.support.bench import Bench, carried, well
+from tests.support.bench import Bench, carried, plate, well
 
 
 def test_a_dispense_into_an_empty_well_adds_nothing_to_the_tip() -> None:
@@ -212,6 +215,29 @@ def test_overfilling_and_overdrawing_are_noticed_exactly_full_is_not() -> None:
     bench.draw("plate:A1", 250)
     kinds = [imbalance.overfilled for imbalance in bench.trace().imbalances]
     assert kinds == [True, False]
+
+
+@pytest.mark.parametrize(("nominal", "overfilled"), [(0.3, False), (120.0, True)])
+def test_a_nominal_volume_in_millilitres_is_no_capacity(nominal: float, overfilled: bool) -> None:
+    well = WellInfo(nominal, 10.67, diameter=6.86)
+    info = replace(plate("1", ["A1"]), wells={"A1": well})
+    plates = Plates({"1": info}, lambda ref: False, {})
+    assert (plates.well(WellRef("1", "A1")).capacity < 250) is overfilled
+
+
+def test_what_is_drawn_to_empty_a_sample_of_unknown_volume_fills_no_waste() -> None:
+    bench = Bench()
+    bench.load("plate:A1", None, "sample")
+    for _ in range(3):
+        bench.pick()
+        bench.draw("source:A1", 60)
+        bench.give("plate:A1", 60)
+        bench.draw("plate:A1", 80)
+        bench.give("source:H12", 80)
+        bench.drop()
+    trace = bench.trace()
+    assert well(trace, "source:H12").volume == pytest.approx(240)
+    assert not trace.imbalances  # of 240 µL 60 are not known to be liquid; the well holds 200
 
 
 def test_a_source_without_declared_volume_never_runs_dry() -> None:

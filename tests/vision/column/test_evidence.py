@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from aegis_ot.vision.column import Dye, EmptyColour, combine, look_at_tip, mean_dye
+from aegis_ot.vision.column import DyeColour, EmptyColour, combine, look_at_tip, mean_dye
 from aegis_ot.vision.column.evidence import colour_evidence, long_step, taper
 from aegis_ot.vision.tips import tip_for
 
@@ -13,12 +13,12 @@ from .drawn import RED, WATER, detection, draw_tip
 
 
 def test_a_dye_within_its_noise_is_no_dye() -> None:
-    assert not np.any(Dye(0.01, 0.0, 0.01).vector)
-    assert Dye(0.1, 0.0, 0.01).vector[0] == pytest.approx(0.098, abs=1e-3)
+    assert not np.any(DyeColour(0.01, 0.0, 0.01).vector)
+    assert DyeColour(0.1, 0.0, 0.01).vector[0] == pytest.approx(0.098, abs=1e-3)
 
 
 def test_dyes_are_averaged_by_their_precision() -> None:
-    mean = mean_dye([Dye(0.1, 0.0, 0.01), Dye(0.4, 0.0, 1.0)])
+    mean = mean_dye([DyeColour(0.1, 0.0, 0.01), DyeColour(0.4, 0.0, 1.0)])
     assert mean is not None
     assert mean.red == pytest.approx(0.1, abs=0.01)
     assert mean.sd < 0.011
@@ -45,7 +45,7 @@ def test_a_step_has_no_finite_uncertainty_where_too_few_rows_lie_beside_it() -> 
 def test_colour_speaks_for_its_own_dye_and_against_another() -> None:
     look = look_at_tip(draw_tip(top=0.6, dye=RED), detection(), tip_for("p1000")).profile
     clear = look_at_tip(draw_tip(top=0.6, dye=WATER), detection(), tip_for("p1000")).profile
-    red, yellow = Dye(0.13, 0.0, 0.005), Dye(0.0, -0.13, 0.005)
+    red, yellow = DyeColour(0.13, 0.0, 0.005), DyeColour(0.0, -0.13, 0.005)
     empty = EmptyColour()
     row = int(np.argmin(np.abs(look.u - 0.6)))
     assert colour_evidence(look, red, empty, top=0.15)[row] > 6

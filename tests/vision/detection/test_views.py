@@ -2,10 +2,18 @@
 
 from __future__ import annotations
 
+import cv2
 import numpy as np
 import pytest
 
-from aegis_ot.vision.detection.views import CLOSE_UP, CLOSE_UP_TIP, close_up, overview
+from aegis_ot.vision.detection.views import (
+    CLOSE_UP,
+    CLOSE_UP_TIP,
+    CLOSE_UP_TOP,
+    close_up,
+    overview,
+    upright,
+)
 
 
 def spot(width: int, height: int, x: int, y: int) -> np.ndarray:
@@ -51,3 +59,23 @@ def test_a_close_up_may_reach_beyond_the_frame(place: tuple[float, float]) -> No
 def test_a_degenerate_tip_still_gives_a_view() -> None:
     view = close_up(spot(640, 480, 310, 200), (300.0, 100.0), (300.0, 100.0))
     assert view.image.shape == (CLOSE_UP[1], CLOSE_UP[0], 3)
+
+
+def test_a_leaning_tip_hangs_straight_in_an_upright_view() -> None:
+    image = np.zeros((480, 640, 3), np.uint8)
+    collar, orifice = (250.0, 120.0), (330.0, 300.0)
+    cv2.line(image, (250, 120), (330, 300), (255, 255, 255), 3, cv2.LINE_AA)
+    view = upright(image, collar, orifice)
+    width, _ = CLOSE_UP
+    ends = ((width / 2, CLOSE_UP_TOP), (width / 2, CLOSE_UP_TOP + CLOSE_UP_TIP))
+    for (x, y), end in zip(ends, (collar, orifice), strict=True):
+        assert view.to_frame(x, y) == pytest.approx(end, abs=0.01)
+        assert view.from_frame(*end) == pytest.approx((x, y), abs=0.01)
+    along = view.image[int(CLOSE_UP_TOP) + 10 : int(CLOSE_UP_TOP + CLOSE_UP_TIP) - 10, :, 0]
+    middles = (along * np.arange(width)).sum(axis=1) / along.sum(axis=1)
+    assert np.abs(middles + 0.5 - width / 2).max() < 1.5
+
+
+def test_an_upright_view_beyond_the_frame_is_no_fault() -> None:
+    image = np.full((48, 64, 3), 90, np.uint8)
+    assert (upright(image, (-300.0, -500.0), (-200.0, -300.0)).image == 90).all()

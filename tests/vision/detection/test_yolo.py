@@ -13,7 +13,6 @@ from onnx import TensorProto, helper, numpy_helper
 from aegis_ot.errors import ModelError
 from aegis_ot.vision.detection import YoloDetector, load_detector
 from aegis_ot.vision.detection.edges import axis_in_box
-from aegis_ot.vision.detection.yolo import suppress
 
 SIDE = 160
 
@@ -182,12 +181,6 @@ def test_the_class_named_tip_is_found(tmp_path: Path) -> None:
 def test_a_class_that_the_network_lacks_is_refused_when_it_is_loaded(red_finder: Path) -> None:
     with pytest.raises(ModelError, match="class 3"):
         YoloDetector(red_finder, tip_class=3)
-
-
-def test_suppression_keeps_the_best_of_overlapping_boxes() -> None:
-    boxes = np.array([[50, 50, 20, 40], [52, 50, 20, 40], [150, 50, 20, 40]], float)
-    assert suppress(boxes, np.array([0.6, 0.9, 0.7]), 0.5) == [1, 2]
-    assert suppress(boxes[:0], np.array([]), 0.5) == []
 
 
 def test_the_axis_follows_a_leaning_tip() -> None:

@@ -11,9 +11,9 @@ import pytest
 from aegis_ot.sidecar import make_analyser
 from aegis_ot.simulation import FrameTruth, SessionParameters, SimulatedCamera
 from aegis_ot.vision.detection import HeatmapDetector
-from aegis_ot.vision.monitor import RunMonitor
 from aegis_ot.vision.rows import ChannelAnalyser
 from aegis_ot.vision.rows.finder import channel_keyframe
+from aegis_ot.vision.run_analyser_factory import RunAnalyserFactory
 from aegis_ot.vision.types import Axis, End, Ends, Image, TipDetection
 from aegis_ot.vocabulary import (
     ChannelOutcome,
@@ -63,7 +63,7 @@ def judge(
     found: tuple[bool | None, ...] = (),
 ) -> list[Any]:
     detector = Told()
-    analyser, judged = RunMonitor(detector).begin("run"), []
+    analyser, judged = RunAnalyserFactory(detector).begin("run"), []
     for keyframe, frame, truth in frames(angle, faults, columns):
         detector.truth = truth
         if found:
@@ -126,7 +126,10 @@ def test_the_nearest_of_hidden_tips_would_be_judged_by_what_those_behind_hold(
         camera = SimulatedCamera(seed, faults, from_the_front_of(9.0))
         camera.expect(keyframes(2))
         detector = Nearest()
-        alone, row = RunMonitor(detector).begin("run"), RunMonitor(detector).begin("run")
+        alone, row = (
+            RunAnalyserFactory(detector).begin("run"),
+            RunAnalyserFactory(detector).begin("run"),
+        )
         for keyframe in keyframes(2):
             camera.announce(keyframe)
             frame = camera.frame_after(0.0, 5.0)
@@ -200,7 +203,7 @@ def test_a_restarted_sidecar_takes_up_what_it_knew(run: list[Any]) -> None:
 
 
 def test_a_block_of_tips_is_unobserved() -> None:
-    analyser = RunMonitor(Told()).begin("run")
+    analyser = RunAnalyserFactory(Told()).begin("run")
     for keyframe, frame, _ in frames(90):
         nozzles = ("A1", "B1", "A2", "B2")
         block = replace(
@@ -213,14 +216,14 @@ def test_a_block_of_tips_is_unobserved() -> None:
 
 
 def test_frames_that_are_no_images_are_undecided() -> None:
-    analyser = RunMonitor(Told()).begin("run")
+    analyser = RunAnalyserFactory(Told()).begin("run")
     for keyframe, frame, _ in frames(30):
         analyser.observe(keyframe, replace(frame, image=np.zeros((0, 0, 3), np.uint8)))
     assert analyser.judge(0)[0].outcome is Outcome.UNDECIDED
 
 
 def test_the_shipped_detector_does_all_this() -> None:
-    analyser = RunMonitor(HeatmapDetector()).begin("run")
+    analyser = RunAnalyserFactory(HeatmapDetector()).begin("run")
     verdicts = []
     for keyframe, frame, _ in frames(15, ["no_dispense@F2"], 2):
         analyser.observe(keyframe, frame)
@@ -231,7 +234,7 @@ def test_the_shipped_detector_does_all_this() -> None:
 
 def test_an_older_robot_names_no_nozzles_and_is_judged_all_the_same() -> None:
     detector = Told()
-    analyser = RunMonitor(detector).begin("run")
+    analyser = RunAnalyserFactory(detector).begin("run")
     for keyframe, frame, truth in frames(30):
         detector.truth = truth
         old: Keyframe = replace(keyframe, nozzles=(), targets=())

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 from aegis_ot.vision.column import look_beside
-from aegis_ot.vision.crops import remember
 from aegis_ot.vision.models import ModelFile
 from aegis_ot.vision.run_scorer import RunScorer
 from aegis_ot.vision.scorers.aims import AIMS, aimed
@@ -63,7 +62,7 @@ def test_a_tip_that_is_not_seen_stays_unseen() -> None:
 def test_looks_whose_frames_are_gone_are_read_as_they_are() -> None:
     sample = trajectory("n", "new", seed=91)
     kept = replace(sample, frames={})
-    remember(kept, "looks", lambda _: looks(sample))
+    kept.once("looks", lambda: looks(sample))
     moved = looks(aimed(kept, 1.0))
     assert all(moved[kind] is seen for kind, seen in looks(sample).items())
 

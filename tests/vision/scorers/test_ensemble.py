@@ -9,7 +9,6 @@ import pytest
 
 from aegis_ot.errors import ModelError
 from aegis_ot.vision.models import ModelFile, load_model, save_model
-from aegis_ot.vision.scorers import signs_of
 from aegis_ot.vision.scorers.aims import AIMS
 from aegis_ot.vision.scorers.ensemble import EnsembleScorer
 from aegis_ot.vision.scorers.surprise import MOST, NO_TIP, Tail, fit_tail
@@ -48,7 +47,7 @@ def test_one_bad_normal_in_the_fit_does_not_blind_it() -> None:
 def test_the_signs_are_of_the_readings_that_the_score_is_of(scorer: EnsembleScorer) -> None:
     failed = trajectory("f", "new", left=0.85, seed=93)
     readings = [scorer.read(failed, px) for px in AIMS]
-    signs = signs_of(scorer, failed)
+    signs = scorer.signs(failed)
     patches = signs.pop("patches")
     assert patches == pytest.approx(np.mean([one.patches for one in readings]))
     for sign, nats in signs.items():

@@ -32,13 +32,13 @@ def test_each_robots_tips_have_a_model_of_their_own() -> None:
     assert set(scorer.models) == {"p1000", "flex_1000"}
     for model in scorer.models.values():
         assert model.height_scale == pytest.approx(1.0, abs=0.06)
-    assert set(RunScorer(scorer, 6).height_factors) == {"ot2_1000", "flex_1000"}
 
 
 def test_the_ensemble_keeps_them_apart_too() -> None:
     scorer = EnsembleScorer()
     scorer.fit([*wells("p1000", 300.0), *wells("flex_1channel_1000", 300.0)])
     assert set(scorer.sums) == set(scorer.patches.banks) == {"p1000", "flex_1000"}
+    assert set(RunScorer(scorer, 6).height_factors) == {"ot2_1000", "flex_1000"}
     assert np.isfinite(scorer.score(wells("flex_1channel_1000", 300.0, 1)[0]))
 
 

@@ -15,7 +15,7 @@ from aegis_ot.vision.types import Image, TipDetection
 from aegis_ot.vision.view import TroubleKind, ViewWatch
 from aegis_ot.vocabulary import Keyframe, KeyframeKind
 
-from ..test_monitor import keyframes
+from ..test_run_analyser_factory import keyframes
 
 WELLS = 3
 TIP = TipDetection(10, 10, 5, 50, 0.9, (12, 60), (12, 10))

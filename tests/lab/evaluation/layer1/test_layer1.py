@@ -190,15 +190,15 @@ def test_a_judge_that_skips_a_protocol_is_refused(tmp_path: Path) -> None:
 
 def test_the_rules_judge_a_real_folder() -> None:
     from aegis_ot.checking import CheckSettings
-    from aegis_ot.preflight import load_database
+    from aegis_ot.preflight import load_rules
 
-    database = load_database()
+    rule_set = load_rules()
     benchmark = Path(__file__).parents[4] / "examples" / "benchmark"
-    families = [family.family for family in database.families]
-    labels = read_labels(benchmark, families, [rule.id for rule in database.rules])
+    families = [family.family for family in rule_set.families]
+    labels = read_labels(benchmark, families, [rule.id for rule in rule_set.rules])
     assert sum(entry.is_bad for entry in labels) == 13
     some = [entry for entry in labels if entry.file in ("b02.py", "b04.py", "b06.py")]
-    judge = Checking(CheckSettings(), database)
+    judge = Checking(CheckSettings(), rule_set)
     result = evaluate_layer1(benchmark, some, judge, "rules-only")
     assert result.adjusted.f1.value == 1.0
     assert result.family_right == 3

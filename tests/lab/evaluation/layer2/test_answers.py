@@ -6,10 +6,10 @@ from pathlib import Path
 
 import pytest
 
-from aegis_ot.vision.gates import Case, GateDecision
+from aegis_ot.vision.gates import GateDecision, GateInput
 from aegis_ot.vocabulary import Gate, Outcome, Route
 from aegis_ot_lab.drawing import write_dataset
-from aegis_ot_lab.evaluation.layer2.answers import Counted
+from aegis_ot_lab.evaluation.layer2.answers import CountedGate
 from aegis_ot_lab.evaluation.layer2.evaluate import evaluate_layer2
 from tests.vision.samples import sample
 
@@ -23,7 +23,7 @@ class Model:
     def __init__(self) -> None:
         self.asked = 0
 
-    def examine(self, case: Case) -> GateDecision:
+    def examine(self, case: GateInput) -> GateDecision:
         self.asked += 1
         trouble = "" if self.asked % 2 else f"no answer to question {self.asked}"
         return GateDecision(Outcome.UNDECIDED, self.gate, "?", trouble=trouble)
@@ -31,10 +31,10 @@ class Model:
 
 def test_questions_are_counted_and_the_first_trouble_is_kept() -> None:
     model = Model()
-    counted = Counted(model)
+    counted = CountedGate(model)
     assert (counted.gate, counted.screens) == (Gate.VLM, False)
     assert counted.answers.note == ""
-    case = Case(sample(), Route.GREY_ZONE)
+    case = GateInput(sample(), Route.GREY_ZONE)
     assert [bool(counted.examine(case).trouble) for _ in range(5)] == [False, True] * 2 + [False]
     told = counted.answers
     assert (told.asked, told.answered, told.trouble) == (5, 3, "no answer to question 2")

@@ -1,0 +1,116 @@
+"""What a person can answer, each with what it causes: the words on the page's buttons."""
+
+from __future__ import annotations
+
+from pydantic import BaseModel, ConfigDict
+
+from ..vocabulary import in_few_words
+from .overview import HoldEntry, RunOverview
+from .plates import still_planned
+
+RECOVERY = "recovery"
+"""Resolution of a pause in which a step that failed waits to be recovered from."""
+
+
+class Answer(BaseModel):
+    """One button.
+
+    Attributes:
+        words: What the sidecar is told: ``"pass resume"``.
+        label: In two or three words.
+        causes: What happens then.
+        kind: ``"pass"``, ``"fail"``, ``"stop"`` or ``""``.
+    """
+
+    model_config = ConfigDict(frozen=True)
+
+    words: str
+    label: str
+    causes: str = ""
+    kind: str = ""
+
+
+def answers_to_pause(
+    overview: RunOverview, hold: HoldEntry, well: str, outcome: str
+) -> tuple[Answer, ...]:
+    """Of a robot that is paused.
+
+    Args:
+        overview: Of the run.
+        hold: The hold that ended in the pause.
+        well: Which well it is about, in short.
+        outcome: Its verdict as it stands; ``""`` without one.
+    """
+    then = next_step(overview, hold)
+    stop = Answer(words="stop", label="Stop the run", causes=_stopped(overview), kind="stop")
+    if hold["resolution"] == RECOVERY:
+        again = "the robot does it once more, then goes on"
+        return (
+            Answer(words="retry", label="Try that step again", causes=again, kind="pass"),
+            Answer(words="resume", label="Go on after it", causes="the robot does its next step"),
+            stop,
+        )
+    if outcome not in ("fail", "undecided"):
+        return Answer(words="resume", label="Continue", causes=then), stop
+    return (
+        Answer(
+            words="fail resume",
+            label="Continue" if outcome == "fail" else "It failed: continue",
+            causes=f"{well} {'stays' if outcome == 'fail' else 'is'} marked as failed; {then}",
+            kind="fail",
+        ),
+        Answer(
+            words="pass resume",
+            label="It is fine: continue",
+            causes=f"{well} is marked as passed; {then}",
+            kind="pass",
+        ),
+        stop,
+    )
+
+
+def answers_to_question(overview: RunOverview, well: str, fails: str) -> tuple[Answer, ...]:
+    """Of a verdict that is held back for a person.
+
+    Args:
+        overview: Of the run.
+        well: Which well it is about, in short.
+        fails: What the robot does with a failed well.
+    """
+    return (
+        Answer(
+            words="pass",
+            label="It passed",
+            causes=f"{well} is marked as passed; the robot goes on",
+            kind="pass",
+        ),
+        Answer(
+            words="fail",
+            label="It failed",
+            causes=f"{well} is marked as failed; {fails or 'the robot is told so'}",
+            kind="fail",
+        ),
+    )
+
+
+def next_step(overview: RunOverview, hold: HoldEntry) -> str:
+    """What the robot does when it goes on: ``"the tip is dropped, then A2 is filled"``."""
+    if hold["resolution"] in ("camera", "busy", "link"):
+        return "the robot tries again; if that fails, it goes on unwatched"
+    said, coming = str(hold.get("next") or ""), still_planned(overview)
+    steps = [said] if said else []
+    if coming:
+        wells = list(coming[0]["wells"])
+        # The step that waits may be the delivery itself.
+        steps = [step for step in steps if not step.startswith(f"the tip enters {wells[0]} ")]
+        steps.append(f"{in_few_words(wells)} {'are' if len(wells) > 1 else 'is'} filled")
+    return ", then ".join(steps) or "the robot does its next step"
+
+
+def _stopped(overview: RunOverview) -> str:
+    wells = {(one["labware"], well) for one in still_planned(overview) for well in one["wells"]}
+    if not wells:
+        return "the robot does nothing more"
+    if len(wells) == 1:
+        return "1 well stays without its liquid"
+    return f"{len(wells)} wells stay without their liquid"

@@ -1,0 +1,322 @@
+"""Whether a qualification's claims are true, and what a fit on its frames brings: simulated labs.
+
+``python -m benchmarks.qualification [--labs 20] [--truth 3] [--seed 44000] [--fit N] [--json OUT]``
+``python -m benchmarks.qualification --duration``: robot time of 48 deliveries, estimated.
+
+Each laboratory is a camera, light, pipette and liquid drawn at random. Its truth are the shares
+caught in further qualifications of the same laboratory, with orders and noise of their own. A
+claim covers it if the claim's 95 % interval holds it. With ``--fit`` the first qualification's
+frames teach a lab its own limits (``aegis-ot fit --start shipped``; ``--own``: a scorer of its own,
+too), which judge further ones beside the shipped ones. All results are simulated.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import logging
+import sys
+import tempfile
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from aegis_ot.planted import LEFT, NORMAL
+from aegis_ot.qualification.certificate import count_liquid
+from aegis_ot.qualification.frames import write_frames
+from aegis_ot.qualification.opening import JudgedDelivery
+from aegis_ot.qualification.plan import CALIBRATING, QualificationPlan, make_plan
+from aegis_ot.qualification.protocol import protocol_text
+from aegis_ot.sidecar import make_analyser
+from aegis_ot.sidecar.config import CascadeSettings
+from aegis_ot.simulation import SessionParameters, SimulatedCamera
+from aegis_ot.vision.detection import HeatmapDetector
+from aegis_ot.vision.types import TipDetection, TrajectorySample
+from aegis_ot.vocabulary import Keyframe, KeyframeKind, WellRef
+from aegis_ot.worldmodel import fit_model
+
+PIPETTES = {"p20_single_gen2": 20.0, "p300_single_gen2": 300.0, "p1000_single_gen2": 1000.0}
+LIQUIDS = ("red", "yellow", "blue", "water")
+
+
+@dataclass(frozen=True)
+class Lab:
+    """One simulated laboratory."""
+
+    seed: int
+    pipette: str
+    liquid: str
+    session: SessionParameters
+
+    @classmethod
+    def drawn(cls, seed: int) -> Lab:
+        rng = np.random.default_rng((seed, 44))
+        pipette = list(PIPETTES)[seed % len(PIPETTES)]
+        liquid = str(rng.choice(LIQUIDS, p=(0.3, 0.25, 0.25, 0.2)))
+        return cls(
+            seed, pipette, liquid, SessionParameters.draw(rng, pipette=pipette, size=(960, 540))
+        )
+
+    def run(self, number: int) -> LabRun:
+        """Its ``number``-th qualification."""
+        seed = 1000 * self.seed + number
+        return LabRun(self, make_plan(self.pipette, "left", [self.liquid], 30, seed), seed)
+
+
+class LabRun:
+    """One qualification of a laboratory, without a robot: its frames are drawn once."""
+
+    def __init__(self, lab: Lab, plan: QualificationPlan, seed: int) -> None:
+        self.lab, self.plan = lab, plan
+        self._detector = _Remembering()
+        camera = SimulatedCamera(seed, plan.faults(), lab.session)
+        self.wells: list[list[tuple[Keyframe, Any]]] = []
+        for keyframes in _keyframes(plan, PIPETTES[lab.pipette]):
+            shown = []
+            for keyframe in keyframes:
+                camera.announce(keyframe)
+                shown.append((keyframe, camera.frame_after(0.0, 5.0)))
+            self.wells.append(shown)
+
+    def judged(self, model: Path | None = None) -> list[JudgedDelivery]:
+        """As the sidecar judges it, with the shipped world model or another."""
+        cascade = CascadeSettings(first_wells="trust", model=model)
+        analyser = make_analyser(cascade, detector=self._detector).begin("run")
+        judged = []
+        for number, shown in enumerate(self.wells):
+            for keyframe, frame in shown:
+                analyser.observe(keyframe, frame)
+            verdict, _ = analyser.judge(number)
+            entry = {
+                "judged": {"outcome": verdict.outcome.value},
+                "keyframes": [
+                    {"kind": keyframe.kind.value, "late": False} for keyframe, _ in shown
+                ],
+            }
+            judged.append(JudgedDelivery(self.plan.deliveries[number], number < CALIBRATING, entry))
+        return judged
+
+    @property
+    def samples(self) -> list[TrajectorySample]:
+        """Labelled by the plan, as the data set of a qualification has them."""
+        found = []
+        for planned, shown in zip(self.plan.deliveries, self.wells, strict=True):
+            last = shown[-1][0]
+            frames = {keyframe.kind: frame.image for keyframe, frame in shown}
+            found.append(
+                TrajectorySample(
+                    id=f"{self.plan.seed}-{last.trajectory}",
+                    plate=f"{planned.liquid} {planned.half}", well=planned.well,
+                    pipette=self.lab.pipette, capacity_ul=last.capacity_ul,
+                    volume_ul=self.plan.volume_ul, frames=frames,
+                    detections={
+                        kind: self._detector.detect(image) for kind, image in frames.items()
+                    },
+                    expected_ul={keyframe.kind: keyframe.expected_ul for keyframe, _ in shown},
+                    reagent=planned.liquid,
+                    label="normal" if planned.kind == NORMAL else "failure",
+                    failure_type=planned.failure_type, retained_fraction=planned.leftover,
+                )
+            )  # fmt: skip
+        return found
+
+
+class _Remembering(HeatmapDetector):
+    """The shipped detector, which looks for a tip once in each frame, however many judge it."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._known: dict[int, tuple[Any, TipDetection | None]] = {}
+
+    def detect(self, image: Any) -> TipDetection | None:
+        if id(image) not in self._known:
+            self._known[id(image)] = image, super().detect(image)
+        return self._known[id(image)][1]
+
+
+def _keyframes(plan: QualificationPlan, capacity_ul: float) -> Iterator[list[Keyframe]]:
+    source = WellRef("reservoir", "A1", "reservoir", "2")
+    for number, planned in enumerate(plan.deliveries):
+        first = Keyframe(
+            f"run {plan.seed}", 0, number, KeyframeKind.ASPIRATE, plan.pipette, "left", 1,
+            f"1:{planned.well}", (source,), (WellRef("plate", planned.well, "plate", "3"),),
+            plan.volume_ul, plan.volume_ul, capacity_ul, planned.liquid,
+        )  # fmt: skip
+        loaded = (KeyframeKind.ASPIRATE, KeyframeKind.TRANSIT)
+        yield [
+            replace(
+                first, kind=kind, sequence=4 * number + place,
+                expected_ul=plan.volume_ul if kind in loaded else 0.0,
+            )
+            for place, kind in enumerate(KeyframeKind)
+        ]  # fmt: skip
+
+
+def counted(deliveries: Sequence[JudgedDelivery], plan: QualificationPlan) -> dict[str, Any]:
+    """What the certificate says of them."""
+    return count_liquid(plan.liquids[0], deliveries, plan)
+
+
+def coverage(lab: Lab, further: int) -> dict[str, Any]:
+    """The claims of a lab's first qualification beside its truth from ``further`` ones."""
+    first = lab.run(0)
+    claim = counted(first.judged(), first.plan)
+    told: list[JudgedDelivery] = []
+    for number in range(1, further + 1):
+        told += lab.run(number).judged()
+    truth = counted(told, first.plan)
+    rows = [
+        {"claim": kind, **_beside(claim["by_kind"][kind], truth["by_kind"][kind])}
+        for kind in claim["by_kind"]
+    ]
+    rows.append({"claim": "all", **_beside(claim["caught"], truth["caught"])})
+    rows.append({"claim": "normals", **_beside(claim["normals_flagged"], truth["normals_flagged"])})
+    left = [each for each in told if each.planned.kind == LEFT]
+    sizes = sorted({each.planned.share for each in left})
+    rates = {
+        size: float(np.mean([each.is_flagged for each in left if each.planned.share == size]))
+        for size in sizes
+    }
+    if claim["smallest_leftover"]:
+        rows.append({"claim": "smallest", **_smallest(claim["smallest_leftover"], rates)})
+    return {"lab": f"{lab.seed}, {lab.pipette}, {lab.liquid}", "rows": rows}
+
+
+def _beside(claim: dict[str, Any], truth: dict[str, Any]) -> dict[str, Any]:
+    rate = truth["hits"] / truth["of"]
+    # The truth is counted too: its interval has to meet the claim's.
+    return {
+        "low": claim["low"], "high": claim["high"], "truth": rate,
+        "covered": claim["low"] <= rate <= claim["high"],
+        "met": claim["low"] <= truth["high"] and truth["low"] <= claim["high"],
+    }  # fmt: skip
+
+
+def _smallest(claim: dict[str, Any], rates: dict[float, Any]) -> dict[str, Any]:
+    """The truth lies between the largest size that is caught less often and the next."""
+    missed = [size for size, rate in rates.items() if rate < 0.9]
+    after = [size for size in rates if not missed or size > max(missed)]
+    low, high = (max(missed) if missed else 0.0), (min(after) if after else None)
+    meets = (claim["high"] is None or claim["high"] >= low) and (
+        high is None or claim["low"] <= max(high, claim["planted"])  # "this or less"
+    )
+    return {
+        "low": claim["low"], "high": claim["high"], "truth": [low, high], "covered": meets,
+        "met": meets,
+    }  # fmt: skip
+
+
+def fitted(lab: Lab, further: int, folder: Path, start: str = "shipped") -> dict[str, Any]:
+    """The shipped limits and those fitted on a lab's first qualification, on further ones."""
+    first = lab.run(0)
+    frames = write_frames(folder / str(lab.seed), first.samples, "synthetic")
+    model = folder / f"{lab.seed}.model"
+    fit_model([frames], model, detector="true", measure=False, start=start)
+    told: dict[str, list[JudgedDelivery]] = {"shipped": [], "fitted": []}
+    for number in range(1, further + 1):
+        run = lab.run(number)
+        told["shipped"] += run.judged()
+        told["fitted"] += run.judged(model)
+    counts = {name: counted(each, first.plan) for name, each in told.items()}
+    return {
+        "lab": f"{lab.seed}, {lab.pipette}, {lab.liquid}",
+        **{
+            name: {key: count[key] for key in ("caught", "by_kind", "normals_flagged")}
+            for name, count in counts.items()
+        },
+    }
+
+
+def show_fitted(found: Sequence[dict[str, Any]]) -> str:
+    """All laboratories together, before and after."""
+    lines = [f"{len(found)} simulated laboratories, before and after fit"]
+    kinds = dict.fromkeys(kind for lab in found for kind in lab["shipped"]["by_kind"])
+    places = [("caught", ("caught",)), *((kind, ("by_kind", kind)) for kind in kinds)]
+    for name, path in [*places, ("flagged", ("normals_flagged",))]:
+        sums = {}
+        for judge in ("shipped", "fitted"):
+            rates = [lab[judge] for lab in found]
+            for step in path:
+                rates = [rate[step] for rate in rates if step in rate]
+            sums[judge] = [sum(rate[key] for rate in rates) for key in ("hits", "of")]
+        (before, of), (after, _) = sums["shipped"], sums["fitted"]
+        lines.append(f"{name:10} {before} -> {after} of {of}")
+    return "\n".join(lines) + "\n"
+
+
+DROP_S, LIFT_S, KEYFRAME_S, VERDICT_S = 10.0, 2.0, 0.3, 1.0
+"""What Opentrons' estimator leaves out, s: throwing a tip away (its own figure for a tip rack), the
+guard's moves above a well, a frame, the wait for a verdict."""
+
+
+def duration(pipette: str) -> tuple[int, float]:
+    """Deliveries of half an hour's plan, and how long they take, s: as Opentrons estimates it."""
+    from opentrons.legacy_commands.types import COMMAND
+    from opentrons.protocols.duration import DurationEstimator
+
+    from aegis_ot.preflight.rehearsal import Script, play
+
+    plan = make_plan(pipette, "right", ["dye"], 30, 3)
+    estimator = DurationEstimator()
+
+    def wrap(run: Any) -> Any:
+        def timed(protocol: Any) -> None:
+            protocol.broker.subscribe(COMMAND, estimator.on_message)
+            run(protocol)
+
+        return timed
+
+    play(Script(protocol_text(plan), "qualification.py"), wrap)
+    each = DROP_S + 2 * LIFT_S + 4 * KEYFRAME_S + VERDICT_S
+    count = len(plan.deliveries)
+    return count, estimator.get_total_duration() + count * each
+
+
+def show(found: Sequence[dict[str, Any]]) -> str:
+    """The claims that hold, of those made."""
+    rows = [row for lab in found for row in lab["rows"]]
+    lines = [f"{len(found)} simulated laboratories, {len(rows)} claims"]
+    for name in dict.fromkeys(row["claim"] for row in rows):
+        alike = [row for row in rows if row["claim"] == name]
+        covered, met = (sum(row[key] for row in alike) for key in ("covered", "met"))
+        lines.append(f"{name:10} covered {covered} of {len(alike)}, intervals meet in {met}")
+    lines.append(f"{'in all':10} covered {sum(row['covered'] for row in rows)} of {len(rows)}")
+    return "\n".join(lines) + "\n"
+
+
+def main(arguments: list[str] | None = None) -> None:
+    """Run and print."""
+    parser = argparse.ArgumentParser(prog="python -m benchmarks.qualification", description=__doc__)
+    parser.add_argument("--labs", type=int, default=20)
+    parser.add_argument("--truth", type=int, default=3, help="further qualifications of each")
+    parser.add_argument("--seed", type=int, default=44_000)
+    parser.add_argument("--fit", type=int, default=0, help="so many laboratories fit a model")
+    parser.add_argument("--own", action="store_true", help="they fit a scorer of their own, too")
+    parser.add_argument("--json", type=Path)
+    parser.add_argument("--duration", action="store_true")
+    given = parser.parse_args(arguments)
+    logging.disable(logging.CRITICAL if given.duration else logging.WARNING)
+    for pipette in PIPETTES if given.duration else ():
+        count, seconds = duration(pipette)
+        sys.stdout.write(f"{pipette}: {count} deliveries in {seconds / 60:.1f} minutes\n")
+    if given.duration:
+        return
+    found = []
+    for number in range(0 if given.fit else given.labs):
+        found.append(coverage(Lab.drawn(given.seed + number), given.truth))
+        sys.stderr.write(f"{json.dumps(found[-1])}\n")
+    with tempfile.TemporaryDirectory(prefix="aegis-ot-") as folder:
+        for number in range(given.fit):
+            lab, start = Lab.drawn(given.seed + number), "" if given.own else "shipped"
+            found.append(fitted(lab, given.truth, Path(folder), start))
+            sys.stderr.write(f"{json.dumps(found[-1])}\n")
+    sys.stdout.write(show_fitted(found) if given.fit else show(found))
+    if given.json is not None:
+        given.json.write_text(json.dumps(found, indent=1), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,125 @@
+"""A whole qualification on simulated hardware, by the command: run, opened, filed, exported."""
+
+from __future__ import annotations
+
+import json
+import zipfile
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from aegis_ot.errors import ConfigurationError
+from aegis_ot.qualification.camera_state import changes
+from aegis_ot.qualification.certificate import certificate
+from aegis_ot.qualification.frames import export_archive, true_samples, write_frames
+from aegis_ot.qualification.opening import open_plan
+from aegis_ot.qualification.page import certificate_html
+from aegis_ot.qualification.plan import make_plan
+from aegis_ot.qualification.running import run_simulated
+from aegis_ot.sidecar.opening import open_store
+from aegis_ot.sidecar.store import Store
+from aegis_ot.vision.dataset import load_dataset
+from aegis_ot.vision.detection import HeatmapDetector
+
+PLAN = make_plan("p300_single_gen2", "right", ["red"], 15, 3)
+
+
+@pytest.fixture(scope="module")
+def run(tmp_path_factory: pytest.TempPathFactory) -> tuple[Store, str]:
+    """The shortest qualification that there is: 24 deliveries."""
+    folder = tmp_path_factory.mktemp("qualification")
+    named = run_simulated(PLAN, folder, 3)
+    return open_store(folder), named
+
+
+@pytest.fixture(scope="module")
+def made(run: tuple[Store, str]) -> dict[str, Any]:
+    return certificate(*run, PLAN, HeatmapDetector())
+
+
+def test_what_was_planted_is_counted_blind(made: dict[str, Any]) -> None:
+    (red,) = made["liquids"]
+    assert (made["delivered"], made["uncounted"], made["frames"]) == (24, 0, "simulated")
+    assert red["caught"]["of"] == 12
+    assert red["caught"]["hits"] >= 7  # dye before a grey panel: most of it is seen
+    assert red["normals_flagged"] | {"low": 0, "high": 0} == {
+        "hits": 0, "of": 6, "low": 0, "high": 0,
+    }  # fmt: skip
+    assert sum(row["caught"]["of"] for row in red["rows"]) == 12
+    # Nobody was told of the plan: the store holds no word of it.
+    assert made["record"]["plan"]["seed"] == 3
+
+
+def test_the_record_has_a_hash_of_every_frame(made: dict[str, Any], run: tuple[Store, str]) -> None:
+    hashes = made["record"]["frame_sha256"]
+    assert len(hashes) == made["record"]["frames"] == 96
+    assert len(set(hashes.values())) == 96
+
+
+def test_the_page_says_that_it_is_simulated(made: dict[str, Any]) -> None:
+    page = certificate_html(made)
+    assert "every figure on this page is a figure on simulated frames" in page
+    assert "10 % air inside the column" in page
+    assert made["record"]["frames_sha256"] in page
+    assert "<script" not in page
+
+
+def test_a_camera_that_changed_is_told(made: dict[str, Any]) -> None:
+    now = made["camera"]
+    assert changes(now, now) == []
+    places = {well: [x + 9, y] for well, (x, y) in now["places"].items()}
+    before = now | {"sharpness": 2 * now["sharpness"], "light": now["light"] / 2, "places": places}
+    told = " ".join(changes(now, before))
+    assert "sharpness has changed by -50 %" in told
+    assert "light has changed by +100 %" in told
+    assert "9 px" in told
+
+
+def test_what_could_not_be_compared_is_told(made: dict[str, Any], run: tuple[Store, str]) -> None:
+    now = made["camera"]
+    nothing = now | {"sharpness": None, "light": None, "places": {}, "size": None}
+    told = changes(now, nothing)
+    assert len(told) == 3
+    assert all("could not be compared" in each for each in told)
+    before = made | {"robot": "another", "tips": "others"}
+    again = certificate(*run, PLAN, HeatmapDetector(), before)
+    assert again["changes"] == [
+        "The last certificate is of another robot and another kind of tips: the cameras are not "
+        "compared."
+    ]
+
+
+def test_a_run_is_not_opened_with_another_plan(run: tuple[Store, str]) -> None:
+    store, named = run
+    with pytest.raises(ConfigurationError, match="no run of this plan"):
+        open_plan(store, named, make_plan("p20_single_gen2", "right", ["red"], 15, 3))
+
+
+def test_frames_are_labelled_by_what_was_planted(run: tuple[Store, str], tmp_path: Path) -> None:
+    store, named = run
+    samples, source = true_samples(store, named, PLAN, HeatmapDetector())
+    data = load_dataset(write_frames(tmp_path / "frames", samples, source))
+    assert data.source == "synthetic"
+    assert data.plates == ("red 1", "red 2")
+    assert [record.label for record in data.records] == [
+        "failure" if each.fault else "normal" for each in PLAN.deliveries
+    ]
+    archive = tmp_path / "frames.zip"
+    assert export_archive(data, archive, "CC0-1.0") == 24
+    _assert_anonymous(archive, named)
+    with pytest.raises(ConfigurationError, match="Name the licence"):
+        export_archive(data, tmp_path / "other.zip", " ")
+    with pytest.raises(ConfigurationError, match="is there already"):
+        export_archive(data, archive, "CC0-1.0")
+
+
+def _assert_anonymous(archive: Path, run: str) -> None:
+    with zipfile.ZipFile(archive) as packed:
+        told = packed.read("deliveries.json").decode()
+        assert packed.read("LICENCE.txt").decode() == "CC0-1.0\n"
+        pictures = [name for name in packed.namelist() if name.endswith(".jpg")]
+    assert run not in told
+    assert "red" not in told
+    assert json.loads(told)["source"] == "synthetic"
+    assert len(pictures) == 96
