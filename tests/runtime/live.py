@@ -115,7 +115,7 @@ class LiveRun:
         done = getattr(self._orchestrator, name)(*arguments)
         return await done if inspect.isawaitable(done) else done
 
-    def wait_for_status(self, status: str, timeout: float = 10.0) -> None:
+    def wait_for_status(self, status: str, timeout: float = 30.0) -> None:
         until = time.monotonic() + timeout
         while self.status != status:
             assert time.monotonic() < until, f"{self.status!r} instead of {status!r}"

@@ -40,7 +40,7 @@ def settings(sidecar: FakeSidecar, **more: Any) -> Settings:
     return Settings(**{"sidecar": sidecar.url, "run_id": "run", **more})
 
 
-def in_time(condition: Callable[[], bool], seconds: float = 10.0) -> None:
+def in_time(condition: Callable[[], bool], seconds: float = 30.0) -> None:
     until = time.monotonic() + seconds
     while not condition():
         assert time.monotonic() < until

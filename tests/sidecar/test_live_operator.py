@@ -38,7 +38,10 @@ class Stage:
         return answer
 
     def asked(self) -> list[str]:
-        return [one.kind for one in situations(self.overview(), time.time())]
+        """What the page asks; nothing while the sidecar has not heard of the run."""
+        answer = self.http.get("/v1/runs/run")
+        known = answer.status_code == 200
+        return [one.kind for one in situations(answer.json(), time.time())] if known else []
 
     def answer(self, words: str) -> None:
         form = {"by": "Ada", "note": "a drop", "answer": words}
