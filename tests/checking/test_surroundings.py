@@ -44,6 +44,7 @@ def build(repo: Path) -> None:
     trough = OWN_LABWARE.replace('"our_trough"', "TROUGH")
     for name, text in {
         "helped": "import json\nfrom beside import WELL\n" + HEAD + MOVES + opens,
+        "older": "from opentrons.commands.commands import drop_tip\n" + HEAD + MOVES,
         "strange": "from stranger import WELL\n" + HEAD + MOVES,
         "far_off": "from far import WELL\n" + HEAD + MOVES,
         "trough": "from decks import TROUGH\n" + trough,
@@ -97,6 +98,14 @@ def test_modules_of_the_repository_are_found_and_told(checked: dict[str, Checked
 def test_nothing_is_found_above_the_checkout(checked: dict[str, CheckedProtocol]) -> None:
     told = refusal(checked["strange"])
     assert "it imports stranger, which is not installed" in told
+
+
+def test_a_module_that_another_opentrons_had_is_not_looked_for(
+    checked: dict[str, CheckedProtocol],
+) -> None:
+    told = refusal(checked["older"])
+    assert "opentrons.commands, which is not in this release of Opentrons" in told
+    assert "PYTHONPATH" not in told
     assert "PYTHONPATH=FOLDER aegis-ot check" in told
 
 
