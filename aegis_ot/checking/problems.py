@@ -86,8 +86,8 @@ def _of_rehearsal(error: RehearsalError, script_name: str) -> Problem:
     cause = error.__cause__
     if isinstance(cause, ModuleNotFoundError) and (cause.name or "").startswith("opentrons."):
         return Problem(
-            f"it imports {cause.name}, which is not in this release of Opentrons: it was written for "
-            "another. An editor may have added the line; if nothing needs it, take it out.",
+            f"it imports {cause.name}, which is not in this release of Opentrons: it was written "
+            "for another. An editor may have added the line; if nothing needs it, take it out.",
             error.line,
         )
     if isinstance(cause, ModuleNotFoundError) and cause.name:
