@@ -277,7 +277,7 @@ class Person:
         """Whether the page says that the robot is paused, and offers to resume it."""
         with self._open(self._page, timeout=20) as answer:
             shown = answer.read().decode()
-        asked = re.search(r'class="asks paused".*?action="([^"]+)".*?value="resume"', shown, re.S)
+        asked = re.search(r'class="ask paused".*?action="([^"]+)".*?value="resume"', shown, re.S)
         self._form = asked[1] if asked else ""
         return asked is not None
 
