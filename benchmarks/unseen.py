@@ -41,8 +41,8 @@ from aegis_ot.runtime.steps import Capture, Hold
 from aegis_ot.settings import Settings
 from aegis_ot.sidecar import Judged, SidecarConfig, running_sidecar
 from aegis_ot.sidecar.cameras.codec import encode_jpeg
-from aegis_ot.sidecar.frames import FrameFiles
 from aegis_ot.sidecar.store import Store
+from aegis_ot.sidecar.store.frames import FrameFiles
 from aegis_ot.vision.camera import Frame
 from aegis_ot.vocabulary import Keyframe, KeyframeKind, Outcome, Route, Verdict, WellRef
 

@@ -86,11 +86,7 @@ def read_values(items: Sequence[str]) -> dict[str, Any]:
         try:
             values[name] = (
                 {"True": True, "False": False}.get(value)
-                if value
-                in (
-                    "True",
-                    "False",
-                )
+                if value in ("True", "False")
                 else json.loads(value)
             )
         except ValueError:

@@ -93,8 +93,7 @@ def check(
         ),
     ] = None,
     mend: Annotated[
-        bool,
-        typer.Option("--fix", help="Mend what is sure, judge again, and write what holds."),
+        bool, typer.Option("--fix", help="Mend what is sure, judge again, and write what holds.")
     ] = False,
     watch: Annotated[
         bool, typer.Option("--watch", help="Check again whenever a file changes, until Ctrl-C.")

@@ -73,8 +73,7 @@ def corpus(
         typer.Option("--jobs", "-j", min=1, help="Protocols at a time (one per processor)."),
     ] = None,
     fail_on: Annotated[
-        str,
-        typer.Option("--fail-on", help="error, warning or never: what ends with exit code 1."),
+        str, typer.Option("--fail-on", help="error, warning or never: what ends with exit code 1.")
     ] = "never",
     install_engines: InstallEngines = False,
 ) -> None:

@@ -17,8 +17,7 @@ engines = typer.Typer(
 app.add_typer(engines, name="engines")
 
 InstallEngines = Annotated[
-    bool,
-    typer.Option("--install-engines", help="Install the engines that these protocols lack."),
+    bool, typer.Option("--install-engines", help="Install the engines that these protocols lack.")
 ]
 
 

@@ -19,8 +19,7 @@ app = typer.Typer()
 def install(
     robot: Robot,
     key: Annotated[
-        Path | None,
-        typer.Option(help="Private key file for ssh.", exists=True, dir_okay=False),
+        Path | None, typer.Option(help="Private key file for ssh.", exists=True, dir_okay=False)
     ] = None,
     user: Annotated[str, typer.Option(help="Who logs in there.")] = "root",
     port: Annotated[int | None, typer.Option(help="Port of its ssh, where not 22.")] = None,

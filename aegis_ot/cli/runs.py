@@ -22,7 +22,7 @@ from .printing import PlainConsole
 
 if TYPE_CHECKING:
     from ..sidecar.store import Store
-    from ..sidecar.verifying import VerifiedRun
+    from ..sidecar.store.verifying import VerifiedRun
 
 app = typer.Typer()
 runs = typer.Typer(
@@ -158,8 +158,8 @@ def verify(
     changed, added, removed or reordered, or nothing can be said of the run, as it is older than
     the chains. Who holds the sidecar's key can sign anew: note the last hash elsewhere.
     """
-    from ..sidecar.signing import public_key
-    from ..sidecar.verifying import verify_runs
+    from ..sidecar.store.signing import public_key
+    from ..sidecar.store.verifying import verify_runs
 
     store = open_data(data)
     try:
@@ -275,8 +275,8 @@ def _told(account: dict[str, Any]) -> list[str]:
 
 
 def _export_lineage(out: Path, runs: list[str], data: Path | None) -> None:
-    from ..sidecar.frames import folder_name
     from ..sidecar.lineage import write_lineage
+    from ..sidecar.store.frames import folder_name
 
     store = open_data(data)
     names = [known_run(store, name) for name in runs]

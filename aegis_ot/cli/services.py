@@ -33,8 +33,8 @@ def doctor(
     Nothing is changed. Exit codes: 0 all is well, 1 a run is possible but something should be
     better, 2 something must be mended first.
     """
+    from ..doctor import examine
     from ..sidecar import SidecarConfig
-    from ..sidecar.doctor import examine
     from ..sidecar.token_file import known_token
 
     settings = SidecarConfig.load(

@@ -14,14 +14,12 @@ app = typer.Typer()
 @app.command()
 def sidecar(
     camera: Annotated[
-        str | None,
-        typer.Option(help="usb:0, http://..., folder:PATH, pattern or simulated."),
+        str | None, typer.Option(help="usb:0, http://..., folder:PATH, pattern or simulated.")
     ] = None,
     host: Annotated[str | None, typer.Option(help="Address to listen on.")] = None,
     port: Annotated[int | None, typer.Option(help="Port; 0 takes a free one.")] = None,
     token: Annotated[
-        str | None,
-        typer.Option(help="Bearer token; better given as AEGIS_OT_SIDECAR_TOKEN."),
+        str | None, typer.Option(help="Bearer token; better given as AEGIS_OT_SIDECAR_TOKEN.")
     ] = None,
     data: Annotated[Path | None, typer.Option(help="Folder for runs and frames.")] = None,
     config: Annotated[Path | None, typer.Option(help="Settings file, JSON or TOML.")] = None,

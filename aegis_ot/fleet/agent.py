@@ -49,10 +49,7 @@ class AegisAgent(Agent):
     """
 
     def __init__(
-        self,
-        robot: RobotConfig,
-        validator: Validator = validate,
-        session: Session | None = None,
+        self, robot: RobotConfig, validator: Validator = validate, session: Session | None = None
     ) -> None:
         super().__init__()
         self._robot = robot

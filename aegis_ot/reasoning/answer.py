@@ -52,21 +52,12 @@ ANSWER_SCHEMA: dict[str, Any] = strict_object(
         )
     ),
     findings=_list(
-        strict_object(
-            rule=_TEXT,
-            message=_TEXT,
-            wells=_WELLS,
-            lines=_LINES,
-            why=_TEXT,
-            fix=_TEXT,
-        )
+        strict_object(rule=_TEXT, message=_TEXT, wells=_WELLS, lines=_LINES, why=_TEXT, fix=_TEXT)
     ),
     summary=_TEXT,
 )
 
 BLIND_SCHEMA: dict[str, Any] = strict_object(
-    family=_TEXT,
-    findings=ANSWER_SCHEMA["properties"]["findings"],
-    summary=_TEXT,
+    family=_TEXT, findings=ANSWER_SCHEMA["properties"]["findings"], summary=_TEXT
 )
 """For the configurations that get neither roles nor questions."""

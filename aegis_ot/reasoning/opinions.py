@@ -42,10 +42,7 @@ class Opinions:
     """
 
     def __init__(
-        self,
-        backend: Backend | None,
-        folder: Path | None = None,
-        rule_set: RuleSet | None = None,
+        self, backend: Backend | None, folder: Path | None = None, rule_set: RuleSet | None = None
     ) -> None:
         self._backend = backend
         self._folder = folder

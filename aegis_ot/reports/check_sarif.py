@@ -71,9 +71,7 @@ def _rule(rule: RuleSpec, family: Family) -> dict[str, Any]:
         "name": "".join(word.capitalize() for word in rule.name.split("-")),
         "shortDescription": {"text": rule.name.replace("-", " ")},
         "fullDescription": {"text": rule.statement},
-        "help": {
-            "text": f"{rule.rationale}\n\nFix: {rule.fix}\n\nReference: {rule.reference}",
-        },
+        "help": {"text": f"{rule.rationale}\n\nFix: {rule.fix}\n\nReference: {rule.reference}"},
         "defaultConfiguration": {"level": rule.severity},
     }
 
@@ -173,10 +171,7 @@ def _notifications(checked: CheckedProtocol, index: dict[str, int]) -> Iterator[
             "locations": [_location(checked, None)],
         }
         if undecided.rule in index:
-            notification["associatedRule"] = {
-                "id": undecided.rule,
-                "index": index[undecided.rule],
-            }
+            notification["associatedRule"] = {"id": undecided.rule, "index": index[undecided.rule]}
         yield notification
     for remark in checked.remarks:
         yield {
@@ -185,8 +180,4 @@ def _notifications(checked: CheckedProtocol, index: dict[str, int]) -> Iterator[
             "locations": [_location(checked, remark.line)],
         }
     for note in checked.notes:
-        yield {
-            "level": "note",
-            "message": {"text": note},
-            "locations": [_location(checked, None)],
-        }
+        yield {"level": "note", "message": {"text": note}, "locations": [_location(checked, None)]}

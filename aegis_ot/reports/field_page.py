@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 from ..preflight.rules import (
@@ -48,7 +48,8 @@ def field_page(head: str) -> str:
     Args:
         head: The page's first line.
     """
-    return "\n".join(_page(head)) + "\n"
+    sections = (_section(cls, title) for cls, title in _PARTS.items())
+    return f"{head}\n{_HEAD}{''.join(sections)}"
 
 
 def parameters(cls: type[Any]) -> dict[str, tuple[str, str]]:
@@ -66,29 +67,30 @@ def parameters(cls: type[Any]) -> dict[str, tuple[str, str]]:
     }
 
 
-def _page(head: str) -> Iterator[str]:
-    yield head
-    yield ""
-    yield "# Fields of a rule file"
-    yield ""
-    yield (
-        "A rule file is a JSON object with the fields of a [family](#family). `$schema` may name "
-        "`family.schema.json`, for editors. Roles are named as the family's `roles` name them. "
-        "[Checks](checks.md) have a page of their own."
-    )
-    for cls, title in _PARTS.items():
-        schema = json_schema(cls)
-        roles = {f.name for f in dataclasses.fields(cls) if f.metadata.get("roles")}
-        yield ""
-        yield f"## {title}"
-        yield ""
-        yield schema["description"]
-        yield ""
-        yield "| field | holds | default | meaning |"
-        yield "|---|---|---|---|"
-        for name, (default, meaning) in parameters(cls).items():
-            kind = "list of roles" if name in roles else _kind(schema["properties"][name])
-            yield f"| `{name}` | {kind} | {default} | {_cell(meaning)} |"
+_HEAD = """
+# Fields of a rule file
+
+A rule file is a JSON object with the fields of a [family](#family). `$schema` may name \
+`family.schema.json`, for editors. Roles are named as the family's `roles` name them. \
+[Checks](checks.md) have a page of their own.
+"""
+
+
+def _section(cls: type[Any], title: str) -> str:
+    schema = json_schema(cls)
+    roles = {f.name for f in dataclasses.fields(cls) if f.metadata.get("roles")}
+    rows = ""
+    for name, (default, meaning) in parameters(cls).items():
+        kind = "list of roles" if name in roles else _kind(schema["properties"][name])
+        rows += f"| `{name}` | {kind} | {default} | {_cell(meaning)} |\n"
+    return f"""
+## {title}
+
+{schema["description"]}
+
+| field | holds | default | meaning |
+|---|---|---|---|
+{rows}"""
 
 
 def _kind(field: Mapping[str, Any]) -> str:

@@ -54,11 +54,7 @@ class KeyframeSender:
     """
 
     def __init__(
-        self,
-        link: SidecarClient,
-        run: str,
-        about: Mapping[str, Any],
-        rest: Callable[[float], None],
+        self, link: SidecarClient, run: str, about: Mapping[str, Any], rest: Callable[[float], None]
     ) -> None:
         self._link = link
         self.run = run
@@ -169,12 +165,7 @@ class KeyframeSender:
         return order
 
     def report_hold(
-        self,
-        trajectory: int,
-        seconds: float,
-        ended_by: str,
-        policy: str | None,
-        then: str = "",
+        self, trajectory: int, seconds: float, ended_by: str, policy: str | None, then: str = ""
     ) -> Callable[[float, str], None]:
         """Tell likewise how a hold went, and what the robot does when it goes on.
 

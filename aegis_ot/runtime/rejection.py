@@ -17,11 +17,7 @@ _REQUEST_S = 1.0
 
 
 def tell_of_rejection(
-    protocol: Any,
-    settings: Settings,
-    file_name: str,
-    layer1: Mapping[str, Any] | None,
-    reason: str,
+    protocol: Any, settings: Settings, file_name: str, layer1: Mapping[str, Any] | None, reason: str
 ) -> None:
     """Register a run that ends before it begins; a sidecar that is away changes nothing.
 

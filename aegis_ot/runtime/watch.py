@@ -168,10 +168,7 @@ class Watcher:
             self._line.sender.report_difference(text)
 
     def end(
-        self,
-        error: BaseException | None,
-        told: str = "",
-        layer1: Mapping[str, Any] | None = None,
+        self, error: BaseException | None, told: str = "", layer1: Mapping[str, Any] | None = None
     ) -> None:
         """After the protocol's last command, or when it raised ``error``.
 

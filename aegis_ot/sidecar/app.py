@@ -181,7 +181,7 @@ def _robot_routes(app: FastAPI, sidecar: Sidecar) -> None:
     async def verdict(number: Number, session: Session, wait: Wait = 0.0) -> dict[str, Any]:
         found = await sidecar.bell.until(lambda: session.ask(number), min(wait, MAX_WAIT))
         answer: dict[str, Any] = {"verdict": None if found is None else to_json(found)}
-        if found is None and session.awaiting_operator(number):
+        if found is None and session.verdicts.awaits_operator(number):
             answer["awaiting"] = "operator"
         return answer | _order(session)
 

@@ -9,9 +9,9 @@ from typing import Any
 from ..account.lineage import lineage_of
 from ..errors import StoreError
 from ..reports.lineage_files import CRATE, lineage_csv, ro_crate
-from .chain import sha256
 from .overview import run_overview
 from .store import Store
+from .store.chain import sha256
 
 
 def lineage_document(store: Store, run: str) -> dict[str, Any]:

@@ -20,10 +20,10 @@ from ..reports.html_page import html_page, shared_file
 from ..reports.run_html import ReportedRun, report_run, run_report_html
 from ..vocabulary import Outcome
 from .bodies import read_body
-from .frames import folder_name
 from .journal import event
 from .security import COOKIE_S, LoginThrottle, client_of, same, set_cookie
 from .service import Sidecar
+from .store.frames import folder_name
 from .trends import trends_of
 from .views import Wanted, history_view, live_run, run_address, run_page
 from .wire import MAX_COUNT, Action, Decision, OrderRequest, WireError, check_run
@@ -239,9 +239,7 @@ def _logging_in(router: APIRouter, sidecar: Sidecar) -> None:
 def _report(sidecar: Sidecar, run: str) -> ReportedRun:
     overview = sidecar.overview(check_run(run))
     return report_run(
-        overview,
-        sidecar.store.frames_of(run),
-        clip=lambda number: sidecar.store.clip(run, number),
+        overview, sidecar.store.frames_of(run), clip=lambda number: sidecar.store.clip(run, number)
     )
 
 

@@ -273,10 +273,12 @@ class Sidecar:
         overview["order"] = None if session is None else session.ordered()
         for trajectory in overview["trajectories"]:
             number = trajectory["trajectory"]
-            waits = session is not None and session.awaiting_operator(number)
+            waits = session is not None and session.verdicts.awaits_operator(number)
             trajectory["awaiting"] = "operator" if waits else None
-            trajectory["awaiting_s"] = session.operator_has(number) if session and waits else None
-            trajectory["held_for_s"] = session.held_for(number) if session else None
+            trajectory["awaiting_s"] = (
+                session.verdicts.operator_has(number) if session and waits else None
+            )
+            trajectory["held_for_s"] = session.verdicts.held_for(number) if session else None
         overview["version"] = version
         return overview
 

@@ -11,19 +11,17 @@ from dataclasses import replace
 from typing import Any
 
 from ..account import RECOVERY
-from ..account.overview import DecisionEntry
 from ..errors import StoreError
 from ..vision.camera import Frame
 from ..vision.view import ViewWatch
 from ..vocabulary import Keyframe, Outcome, Verdict
 from .alerts import Alerts, RunTrouble
-from .analysis import Analyser, tell_late, undecided
+from .analysis import Analyser
 from .bell import Bell
-from .decisions import effective
 from .journal import event
 from .orders import Orders
-from .overview import run_overview
 from .run_record import RunRecord
+from .run_verdicts import RunVerdicts
 from .store import SILENT, Captured, Store
 from .wire import Action, Decision, HoldReport, OrderRequest, WireError
 from .worker import AnalysisWorker
@@ -42,8 +40,6 @@ OPERATOR = "operator"
 """Resolution of a hold that a person ordered."""
 LATELY_S = 60.0
 """What the camera shows has nothing to do with a keyframe that is older, s."""
-ASKS_S = 3.0
-"""A robot that holds asks every 0.15 s; one that has not asked for so long does something else."""
 
 
 class RunSession:
@@ -59,6 +55,8 @@ class RunSession:
 
     Attributes:
         asked: When it was last asked for, ``time.monotonic``, s.
+        record: Writes what comes of the run.
+        verdicts: As the robot and the page may see them.
         nonce: Of the start that it is; empty if its guard has none.
     """
 
@@ -82,23 +80,18 @@ class RunSession:
         self.record = RunRecord(
             run, store, lambda why: self._trouble.begins("store", str(why)), bell.ring
         )
-        self._operator_timeout = operator_timeout
         self._view = view
         self._capturing = threading.Lock()
         self._state = threading.Lock()
         start = store.start_of(run)
         self.nonce = "" if start is None else start.nonce
-        self._late: set[int] = set()
         store.forget_torn(run)
         self._next = store.next_sequence(run)
         self._at = 0
         self._kept_at = -math.inf
         self._known = {hold["trajectory"] for hold in store.holds(run)}
         judged = store.verdicts(run)
-        self._verdicts: dict[int, Verdict] = {v.trajectory: v for v, _, _ in judged}
-        self._decisions = store.decisions(run)
-        self._release: dict[int, float] = {}
-        self._asks: dict[int, tuple[float, float]] = {}
+        self.verdicts = RunVerdicts(run, store, [v for v, _, _ in judged], operator_timeout)
         self._orders = Orders(store.actions(run), store.holds(run))
         self._paused: set[int] = set()
         self._worker = AnalysisWorker(
@@ -165,25 +158,13 @@ class RunSession:
         self._bell.ring()
         return captured
 
-    def verdict(self, trajectory: int) -> Verdict | None:
-        """The verdict as the robot may see it now; ``None`` while the operator is waited for."""
-        with self._state:
-            verdict = self._verdicts.get(trajectory)
-            if verdict is None or self._awaited(trajectory):
-                return None
-            return effective(verdict, self._decisions.get(trajectory, []))
-
     def ask(self, trajectory: int) -> Verdict | None:
-        """The robot asks for a verdict, again and again while it holds."""
-        now = time.monotonic()
-        with self._state:
-            first, last = self._asks.get(trajectory, (now, now))
-            news = trajectory not in self._asks
-            self._asks[trajectory] = (first if now - last < ASKS_S else now, now)
-        found = self.verdict(trajectory)
-        if news and found is None:
+        """The robot asks for a verdict; ``None`` where it has to ask again."""
+        is_new = self.verdicts.note_question(trajectory)
+        verdict = self.verdicts.for_robot(trajectory)
+        if is_new and verdict is None:
             self._bell.ring()
-        return found
+        return verdict
 
     @property
     def under_way(self) -> int | None:
@@ -191,22 +172,6 @@ class RunSession:
         has to do with it."""
         lately = time.monotonic() - self._kept_at < LATELY_S
         return self._at if lately else None
-
-    def held_for(self, trajectory: int) -> float | None:
-        """For how long the robot has held for this verdict, s; ``None`` if it does not."""
-        now = time.monotonic()
-        with self._state:
-            first, last = self._asks.get(trajectory, (now, -ASKS_S))
-            return now - first if now - last < ASKS_S else None
-
-    def awaiting_operator(self, trajectory: int) -> bool:
-        """Whether an undecided verdict is being held back for the operator."""
-        with self._state:
-            return self._awaited(trajectory)
-
-    def operator_has(self, trajectory: int) -> float:
-        """How long the verdict will still be held back for the operator, s."""
-        return max(0.0, self._release.get(trajectory, 0.0) - time.monotonic())
 
     def abandon(self, trajectory: int, reason: str) -> None:
         """The trajectory will have no further keyframes and needs no verdict."""
@@ -222,7 +187,7 @@ class RunSession:
         """
         with self._state:
             self._known.add(hold.trajectory)
-            verdict = self._verdicts.get(hold.trajectory)
+            verdict = self.verdicts.of_analyser(hold.trajectory)
             unsure = verdict is not None and verdict.outcome is Outcome.UNDECIDED
             if hold.resolution in (OPERATOR, LAYER1, RECOVERY, *UNSERVED):
                 self._orders.taken()
@@ -234,9 +199,9 @@ class RunSession:
         """The robot moves: whoever was asked by a pause has looked, and let the run go on."""
         with self._state:
             paused, self._paused = self._paused, set()
-            going = [number for number in paused if number not in self._decisions]
-        for trajectory in sorted(going):
-            self._worker.confirm(trajectory)
+        for trajectory in sorted(paused):
+            if not self.verdicts.is_decided(trajectory):
+                self._worker.confirm(trajectory)
 
     def decide(self, trajectory: int, decision: Decision) -> Verdict:
         """The operator confirms or corrects a verdict; deciding again is allowed.
@@ -245,19 +210,7 @@ class RunSession:
             WireError: 404 if there is no such delivery, 409 if there is no verdict yet.
         """
         self._require_known(trajectory)
-        with self._state:
-            verdict = self._verdicts.get(trajectory) or self._give_up(trajectory)
-            if verdict is None:
-                raise WireError(409, "no_verdict", f"Trajectory {trajectory} has no verdict yet.")
-            row: DecisionEntry = {
-                "outcome": decision.outcome.value,
-                "by": decision.by,
-                "note": decision.note,
-                "at": time.time(),
-            }
-            decided_so_far = self._decisions.setdefault(trajectory, [])
-            decided_so_far.append(row)
-            decided = effective(verdict, decided_so_far)
+        verdict, row, decided = self.verdicts.decide(trajectory, decision, not self.idle)
         if decision.outcome is Outcome.PASS and verdict.outcome is Outcome.UNDECIDED:
             self._worker.confirm(trajectory)
         self.record.decision(trajectory, decision, row)
@@ -329,23 +282,6 @@ class RunSession:
                 "If it still moves, press stop on its own screen.",
             )
 
-    def _give_up(self, trajectory: int) -> Verdict | None:
-        """Undecided, and a person's to decide, is a delivery of which no verdict will come."""
-        entries = run_overview(self._store, self.run, not self.idle)["trajectories"]
-        for why in (one["unjudged"] for one in entries if one["trajectory"] == trajectory):
-            if why is not None:
-                verdict = undecided(self.run, trajectory, why)
-                self._store.add_verdict(verdict, {})
-                self._verdicts[trajectory] = verdict
-                return verdict
-        return None
-
-    def _awaited(self, trajectory: int) -> bool:
-        release = self._release.get(trajectory)
-        return (
-            release is not None and trajectory not in self._decisions and time.monotonic() < release
-        )
-
     def _again(self, keyframe: Keyframe) -> Captured:
         kept = self._store.keyframe(self.run, keyframe.sequence)
         if kept is None:
@@ -362,23 +298,12 @@ class RunSession:
                 expected=self._next,
             )
         if keyframe.late and not kept.keyframe.late:
-            self._came_late(kept.keyframe)
+            self.verdicts.withdraw(kept.keyframe)
         return kept
-
-    def _came_late(self, keyframe: Keyframe) -> None:
-        """The robot moved on before it heard of this capture: the frame may show anything."""
-        with self._state:
-            self._late.add(keyframe.trajectory)
-            verdict = self._verdicts.get(keyframe.trajectory)
-            self._store.mark_late(self.run, keyframe.sequence)
-            if verdict is not None:
-                unseen = undecided(self.run, keyframe.trajectory, tell_late(keyframe.kind))
-                self._store.withdraw_verdict(unseen)
-                self._verdicts[keyframe.trajectory] = unseen
 
     def _resume(self) -> None:
         """Queue again what a killed sidecar had kept but not judged."""
-        settled = self._verdicts.keys() | self._store.abandoned(self.run).keys()
+        settled = self.verdicts.known() | self._store.abandoned(self.run).keys()
         for captured in self._store.keyframes(self.run):
             self._known.add(captured.keyframe.trajectory)
             if captured.keyframe.trajectory not in settled:
@@ -386,14 +311,9 @@ class RunSession:
 
     def _publish(self, verdict: Verdict, evidence: dict[str, Any]) -> None:
         """Called by the worker. A verdict that cannot be kept still reaches the robot."""
-        with self._state:
-            if verdict.trajectory in self._late:
-                verdict = undecided(self.run, verdict.trajectory, tell_late())
+        verdict = self.verdicts.as_it_counts(verdict)
         self.record.verdict(verdict, evidence)
-        with self._state:
-            self._verdicts[verdict.trajectory] = verdict
-            if verdict.outcome is Outcome.UNDECIDED and self._operator_timeout > 0:
-                self._release[verdict.trajectory] = time.monotonic() + self._operator_timeout
+        self.verdicts.add(verdict)
         self._bell.ring()
         event("verdict", run=self.run, trajectory=verdict.trajectory, outcome=verdict.outcome.value,
               route=verdict.route.value, gate=verdict.gate.value, score=verdict.score,

@@ -16,8 +16,8 @@ from ..errors import AegisError
 from ..vocabulary import counted
 from .aiming import sharpness
 from .cameras.codec import decode_jpeg
-from .database import readable
 from .store import Store
+from .store.database import readable
 
 RUNS = 40
 """So many of the newest runs are looked at."""

@@ -57,10 +57,7 @@ def edges(
     fade = width / soft
     rim = np.exp(-(((outer - u) / soft) ** 2) / 2)
     bore = np.exp(-(((inner - u) / soft) ** 2) / 2)
-    return np.asarray(
-        p.rim * fade * (0.45 * rim + 0.38 * bore * (1 - 0.75 * wet)),
-        np.float32,
-    )
+    return np.asarray(p.rim * fade * (0.45 * rim + 0.38 * bore * (1 - 0.75 * wet)), np.float32)
 
 
 def glints(view: TipPatch, inner: Plane, outer: Plane, wet: Plane, p: SessionParameters) -> Plane:
@@ -69,10 +66,7 @@ def glints(view: TipPatch, inner: Plane, outer: Plane, wet: Plane, p: SessionPar
     soft = np.maximum(width, view.mm_per_px * 0.5)
     outside = np.exp(-(((view.across - p.glint_side * outer) / soft) ** 2) / 2)
     caustic = np.exp(-(((view.across + 0.45 * p.glint_side * inner) / soft) ** 2) / 2)
-    return np.asarray(
-        p.glint * width / soft * (0.55 * outside + 0.28 * caustic * wet),
-        np.float32,
-    )
+    return np.asarray(p.glint * width / soft * (0.55 * outside + 0.28 * caustic * wet), np.float32)
 
 
 def menisci(

@@ -200,11 +200,7 @@ class SessionParameters:
 
     @classmethod
     def draw(
-        cls,
-        rng: np.random.Generator,
-        *,
-        pipette: str = "p1000",
-        size: tuple[int, int] = (640, 480),
+        cls, rng: np.random.Generator, *, pipette: str = "p1000", size: tuple[int, int] = (640, 480)
     ) -> SessionParameters:
         """A session drawn at random, wide but realistic.
 

@@ -72,45 +72,23 @@ def read_manifest(root: Path, problems: Problems) -> list[Record]:
     """Rows of ``manifest.csv`` that could be read; faults go to ``problems``."""
     rows = read_table(root / "manifest.csv", COLUMNS, problems)
     records: list[Record] = []
-    seen: dict[str, int] = {}
-    frame_rows: dict[str, int] = {}
-    plate_rows: dict[str, int] = {}
-    normal_plates: set[str] = set()
+    first_rows: dict[str, dict[str, int]] = {"trajectory_id": {}, "frame": {}, "plate": {}}
     for line, row in rows:
         note = Note(problems, "manifest.csv", line)
         for column in ("trajectory_id", "plate", "pipette", "well"):
             if not row[column]:
                 note(column, "is empty")
         name = row["trajectory_id"]
-        if name in seen:
-            note("trajectory_id", f"{name!r} stands in row {seen[name]} already")
-        elif name:
-            seen[name] = line
-        if row["well"] and not _WELL.fullmatch(row["well"]):
-            note("well", f"{row['well']!r} is no well name such as A1")
-        if row["pipette"] and not _PIPETTE.fullmatch(row["pipette"]):
-            note(
-                "pipette",
-                f"{row['pipette']!r} is no pipette such as p20, p1000 or flex_1channel_50",
-            )
-        _check_label(row, note)
-        volume = number(row["volume_ul"], "volume_ul", note)
-        if volume is not None and volume <= 0:
-            note("volume_ul", f"{row['volume_ul']} must be more than 0")
-        retained = None
-        if row["retained_fraction"]:
-            retained = number(row["retained_fraction"], "retained_fraction", note)
-            if retained is not None and retained < 0:
-                note("retained_fraction", f"{row['retained_fraction']} must not be negative")
+        first = first_rows["trajectory_id"].setdefault(name, line)
+        if name and first != line:
+            note("trajectory_id", f"{name!r} stands in row {first} already")
+        volume, retained = _check_values(row, note)
         for column in FRAME_COLUMNS:
             _check_frame(root, row[column], column, note)
-            if row[column]:
-                first = frame_rows.setdefault(row[column], line)
-                if first != line:
-                    note(column, f"{row[column]!r} is also named in row {first}")
-        plate_rows.setdefault(row["plate"], line)
-        if row["label"] == "normal":
-            normal_plates.add(row["plate"])
+            first = first_rows["frame"].setdefault(row[column], line)
+            if row[column] and first != line:
+                note(column, f"{row[column]!r} is also named in row {first}")
+        first_rows["plate"].setdefault(row["plate"], line)
         records.append(
             Record(
                 name,
@@ -121,21 +99,37 @@ def read_manifest(root: Path, problems: Problems) -> list[Record]:
                 row["label"],
                 row["failure_type"],
                 retained,
-                volume if volume is not None else math.nan,
+                volume,
                 {KeyframeKind(column): row[column] for column in FRAME_COLUMNS},
             )
         )
-    for plate, line in plate_rows.items():
+    normal_plates = {row["plate"] for _, row in rows if row["label"] == "normal"}
+    for plate, line in first_rows["plate"].items():
         if plate and plate not in normal_plates:
-            problems.add(
-                "manifest.csv",
-                line,
-                "plate",
-                f"{plate!r} has no normal row, so it has no calibration well",
-            )
+            said = f"{plate!r} has no normal row, so it has no calibration well"
+            problems.add("manifest.csv", line, "plate", said)
     if not rows and not problems:
         problems.add("manifest.csv", None, None, "has no rows")
     return records
+
+
+def _check_values(row: Mapping[str, str], note: Note) -> tuple[float, float | None]:
+    """Of one row the volume, µL, NaN where it is wrong, and the retained fraction."""
+    if row["well"] and not _WELL.fullmatch(row["well"]):
+        note("well", f"{row['well']!r} is no well name such as A1")
+    if row["pipette"] and not _PIPETTE.fullmatch(row["pipette"]):
+        known = "p20, p1000 or flex_1channel_50"
+        note("pipette", f"{row['pipette']!r} is no pipette such as {known}")
+    _check_label(row, note)
+    volume = number(row["volume_ul"], "volume_ul", note)
+    if volume is not None and volume <= 0:
+        note("volume_ul", f"{row['volume_ul']} must be more than 0")
+    retained = None
+    if row["retained_fraction"]:
+        retained = number(row["retained_fraction"], "retained_fraction", note)
+        if retained is not None and retained < 0:
+            note("retained_fraction", f"{row['retained_fraction']} must not be negative")
+    return math.nan if volume is None else volume, retained
 
 
 def read_boxes(

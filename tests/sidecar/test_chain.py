@@ -20,10 +20,10 @@ from aegis_ot.errors import StoreError
 from aegis_ot.sidecar import SidecarConfig, running_sidecar
 from aegis_ot.sidecar.config import RetentionSettings
 from aegis_ot.sidecar.housekeeping import tidy
-from aegis_ot.sidecar.schema import MIGRATIONS
-from aegis_ot.sidecar.signing import KEY_FILE, public_key
 from aegis_ot.sidecar.store import DATABASE, Captured, Store
-from aegis_ot.sidecar.verifying import VerifiedRun, verify_runs
+from aegis_ot.sidecar.store.schema import MIGRATIONS
+from aegis_ot.sidecar.store.signing import KEY_FILE, public_key
+from aegis_ot.sidecar.store.verifying import VerifiedRun, verify_runs
 from aegis_ot.sidecar.wire import (
     Action,
     Decision,
@@ -225,7 +225,7 @@ def test_it_is_said_where(kept: Path) -> None:
 
 def test_a_chain_that_was_made_anew_lacks_the_signature(kept: Path) -> None:
     """Somebody without the key changes a record and computes all hashes again, or cuts the end."""
-    from aegis_ot.sidecar.chain import digest_of, link
+    from aegis_ot.sidecar.store.chain import digest_of, link
 
     with sqlite3.connect(kept / DATABASE) as db:
         db.row_factory = sqlite3.Row

@@ -13,7 +13,7 @@ from aegis_ot.sidecar import SidecarConfig, clips, running_sidecar
 from aegis_ot.sidecar.cameras.history import CLIP_EVERY_S, HISTORY_S, History
 from aegis_ot.sidecar.cameras.raw import Raw
 from aegis_ot.sidecar.config import CameraSettings
-from aegis_ot.sidecar.frames import FrameFiles
+from aegis_ot.sidecar.store.frames import FrameFiles
 from aegis_ot.vision.camera import Frame
 from aegis_ot.vocabulary import Keyframe
 

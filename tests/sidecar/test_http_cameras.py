@@ -13,13 +13,13 @@ from http.server import BaseHTTPRequestHandler
 import numpy as np
 import pytest
 
+from aegis_ot.doctor import examine
 from aegis_ot.errors import CameraError
 from aegis_ot.sidecar import SidecarConfig
 from aegis_ot.sidecar.cameras import open_camera
 from aegis_ot.sidecar.cameras.codec import encode_jpeg
 from aegis_ot.sidecar.cameras.http import UNKNOWN_PACE_S, Pace
 from aegis_ot.sidecar.config import CameraSettings
-from aegis_ot.sidecar.doctor import examine
 from aegis_ot.vision.types import Image
 
 from .test_cameras import web_camera

@@ -20,9 +20,9 @@ import pytest
 from aegis_ot.errors import StoreError
 from aegis_ot.sidecar import SidecarConfig, running_sidecar, service
 from aegis_ot.sidecar.cameras.codec import decode_jpeg
-from aegis_ot.sidecar.frames import FrameFiles
-from aegis_ot.sidecar.schema import MIGRATIONS
 from aegis_ot.sidecar.store import DATABASE, Captured, Store
+from aegis_ot.sidecar.store.frames import FrameFiles
+from aegis_ot.sidecar.store.schema import MIGRATIONS
 from aegis_ot.sidecar.wire import RunStart
 
 from .helpers import Robot, StubAnalyser, StubCamera, make_jpeg, make_keyframe

@@ -11,11 +11,11 @@ from collections.abc import Iterator
 import httpx
 import pytest
 
+from aegis_ot.doctor import examine
 from aegis_ot.errors import CameraError, ConfigurationError
 from aegis_ot.sidecar import SidecarConfig, running_sidecar
 from aegis_ot.sidecar.cameras import open_camera
 from aegis_ot.sidecar.config import CameraSettings
-from aegis_ot.sidecar.doctor import examine
 from aegis_ot.sidecar.journal import _Json, _Text, event
 from aegis_ot.vocabulary import without_secrets
 
@@ -62,7 +62,7 @@ def test_the_sidecar_tells_nobody(unsafe: SidecarConfig) -> None:
 
 
 def test_the_doctor_tells_nobody(unsafe: SidecarConfig, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("aegis_ot.sidecar.doctor._FIRST_FRAME_S", 0.5)
+    monkeypatch.setattr("aegis_ot.doctor._FIRST_FRAME_S", 0.5)
     told = [f"{check.said} {check.todo}" for check in examine(unsafe)]
     assert any("127.0.0.1:9" in line for line in told)
     holds_none(" ".join(told))

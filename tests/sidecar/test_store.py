@@ -19,8 +19,8 @@ from aegis_ot.sidecar.app import create_app
 from aegis_ot.sidecar.config import RetentionSettings
 from aegis_ot.sidecar.housekeeping import tidy
 from aegis_ot.sidecar.overview import run_overview, runs_overview
-from aegis_ot.sidecar.schema import MIGRATIONS
 from aegis_ot.sidecar.store import DATABASE, SILENT, Captured, Store
+from aegis_ot.sidecar.store.schema import MIGRATIONS
 from aegis_ot.sidecar.wire import Finish, HoldReport, RecoveryReport, RunStart
 from aegis_ot.vocabulary import Outcome, Route, Verdict
 

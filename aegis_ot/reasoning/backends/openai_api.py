@@ -140,11 +140,7 @@ class OpenAIBackend(ServiceBackend):
         if self._structured == "json_schema":
             arguments["response_format"] = {"type": "json_schema", "json_schema": schema}
         elif self._structured == "tool":
-            function = {
-                "name": request.purpose,
-                "parameters": request.schema,
-                **self._strict,
-            }
+            function = {"name": request.purpose, "parameters": request.schema, **self._strict}
             arguments["tools"] = [{"type": "function", "function": function}]
             arguments["tool_choice"] = {"type": "function", "function": {"name": request.purpose}}
         elif self._structured == "guided_json":

@@ -15,10 +15,7 @@ from .notices import Notice
 
 log = logging.getLogger(__name__)
 
-WHAT = {
-    "store": "the store is in trouble",
-    "model": "the vision model does not answer",
-}
+WHAT = {"store": "the store is in trouble", "model": "the vision model does not answer"}
 """Kinds of trouble that last, in words."""
 
 

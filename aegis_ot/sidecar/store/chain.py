@@ -15,7 +15,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
-from ..errors import StoreError
+from ...errors import StoreError
 from .signing import Signer
 
 KEYS: dict[str, tuple[str, ...]] = {

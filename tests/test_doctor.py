@@ -13,10 +13,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from aegis_ot.doctor import Examination, examine
 from aegis_ot.sidecar import SidecarConfig, running_sidecar
 from aegis_ot.sidecar.aiming import measure
 from aegis_ot.sidecar.config import CameraSettings, CascadeSettings, ModelSettings
-from aegis_ot.sidecar.doctor import Examination, examine
 from aegis_ot.sidecar.store import DATABASE
 from aegis_ot.simulation import SimulatedCamera
 from aegis_ot.vision.camera import Frame
@@ -24,7 +24,7 @@ from aegis_ot.vision.detection import load_detector
 from aegis_ot.vision.models import SHIPPED, load_model, save_model
 from aegis_ot.vision.reach import Smallest
 
-from .helpers import StubCamera, make_keyframe
+from .sidecar.helpers import StubCamera, make_keyframe
 
 
 def found(config: SidecarConfig, robot: str | None = None) -> dict[str, Examination]:

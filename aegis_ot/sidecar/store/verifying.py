@@ -9,18 +9,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Literal
 
-from .chain import (
-    BEGUN,
-    CLIPS,
-    FRAMES,
-    KEYS,
-    LEDGER,
-    REMOVED,
-    digest_of,
-    key_of,
-    link,
-    sealed,
-)
+from .chain import BEGUN, CLIPS, FRAMES, KEYS, LEDGER, REMOVED, digest_of, key_of, link, sealed
 from .signing import is_signed
 from .store import Store
 

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import IO, Any, TypeVar
 
-from ..errors import StoreError
+from ...errors import StoreError
 from .chain import Chain, File
 from .frames import FRAMES
 from .schema import migrate

@@ -14,22 +14,22 @@ from email.utils import parsedate_to_datetime
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
-from .._version import __version__
-from ..errors import AegisError, CameraError, StoreError
-from ..reasoning import make_backend
-from ..reasoning.backends.service import ServiceBackend
-from ..settings import load_settings
-from ..vision.camera import Camera
-from ..vision.models import load_model
-from ..vision.reach import Smallest, limits_in, normals_in, shortcomings, smallest_in
-from ..vocabulary import counted, without_secrets
-from .aiming import Aim
-from .alerts.notifications import Notifier
-from .analysers import load_scorer
-from .cameras import FreeRunning, open_camera
-from .config import CameraSettings, SidecarConfig, is_loopback
-from .store import DATABASE, Store
-from .token_file import TOKEN_FILE
+from ._version import __version__
+from .errors import AegisError, CameraError, StoreError
+from .reasoning import make_backend
+from .reasoning.backends.service import ServiceBackend
+from .settings import load_settings
+from .sidecar.aiming import Aim
+from .sidecar.alerts.notifications import Notifier
+from .sidecar.analysers import load_scorer
+from .sidecar.cameras import FreeRunning, open_camera
+from .sidecar.config import CameraSettings, SidecarConfig, is_loopback
+from .sidecar.store import DATABASE, Store
+from .sidecar.token_file import TOKEN_FILE
+from .vision.camera import Camera
+from .vision.models import load_model
+from .vision.reach import Smallest, limits_in, normals_in, shortcomings, smallest_in
+from .vocabulary import counted, without_secrets
 
 _LEAST_FREE_GB = 2.0
 _FIRST_FRAME_S = 8.0
