@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from .instrumentation import Event, Operation
+from .adapters.opentrons.instrumentation import Event, Operation
 from .preflight.check_protocol import tell_finding
 from .preflight.live_judging import LiveJudge
 from .runtime import RunControl, about_layer1
@@ -34,19 +34,19 @@ class FollowedRun:
         self._why = why
 
     def before(self, operation: Operation) -> None:
-        """Of :class:`aegis_ot.instrumentation.Listener`; raises what :class:`RunControl` does."""
+        """Of :class:`.Listener`; raises what :class:`RunControl` does."""
         if self._acts and not self._hands.acting and self._hands.may_object:
             errors = self._judge.before(operation)
             if errors:
                 self._hands.object_to(self._objection(errors))
 
     def after(self, operation: Operation) -> None:
-        """Of :class:`aegis_ot.instrumentation.Listener`."""
+        """Of :class:`.Listener`."""
         if not self._hands.acting and self._judge.done(operation):
             self._hands.tell_difference(self._difference())
 
     def event(self, event: Event) -> None:
-        """Of :class:`aegis_ot.instrumentation.Listener`."""
+        """Of :class:`.Listener`."""
         self._judge.event(event)
 
     def end(self, by_itself: bool) -> None:

@@ -12,8 +12,8 @@ from collections.abc import Callable
 from types import FrameType, TracebackType
 from typing import Any
 
+from .adapters.opentrons.protocol_frames import at_return_of
 from .errors import ConfigurationError
-from .protocol_frames import at_return_of
 
 
 class GuardBlock:

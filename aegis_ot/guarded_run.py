@@ -14,6 +14,14 @@ from contextlib import ExitStack
 from types import FrameType
 from typing import TYPE_CHECKING, Any
 
+from .adapters.opentrons.instrumentation import NameCollector, tapped
+from .adapters.opentrons.protocol_frames import (
+    at_return_of,
+    line_of,
+    make_final,
+    outermost,
+    raise_in_protocol,
+)
 from .errors import (
     AegisError,
     ConfigurationError,
@@ -22,15 +30,13 @@ from .errors import (
     RehearsalTimeout,
     RuleError,
 )
-from .instrumentation import NameCollector, tapped
 from .known_tips import KnownTips, recovers_by_itself
-from .protocol_frames import at_return_of, line_of, make_final, outermost, raise_in_protocol
 from .settings import Settings, load_settings
 from .vocabulary import one_line
 
 if TYPE_CHECKING:
+    from .adapters.opentrons.rehearsal import Recording
     from .guarding import Layer1
-    from .preflight.rehearsal import Recording
 
 
 _GUARDED: weakref.WeakKeyDictionary[Any, Mapping[str, Any]] = weakref.WeakKeyDictionary()
@@ -55,8 +61,8 @@ def run_guarded(call: Callable[[], Any], protocol: Any, keywords: dict[str, Any]
         keywords: The guard's keyword arguments.
         run: What the user decorated.
     """
+    from .adapters.opentrons.rehearsal import find_home, rehearsal_under_way
     from .guarding import Guarding
-    from .preflight.rehearsal import find_home, rehearsal_under_way
 
     if (rehearsal := rehearsal_under_way()) is not None:
         return rehearsal.guarded(keywords, _refuse_second, call)
@@ -98,9 +104,9 @@ def guard_rest_of(frame: FrameType, protocol: Any, keywords: dict[str, Any]) -> 
     function: nothing can be rehearsed, and the guard ends with the cell or the program, or with the
     ``with`` that takes it over.
     """
+    from .adapters.opentrons.rehearsal import find_home, rehearsal_under_way
     from .guard_block import GuardBlock, is_head_of_block, offer, offer_again
     from .guarding import Guarding, Layer1, place_of, tell_of_nothing, tell_what_is_covered
-    from .preflight.rehearsal import find_home, rehearsal_under_way
 
     if (rehearsal := rehearsal_under_way()) is not None:
         rehearsal.guarded(keywords, _refuse_second)
@@ -202,8 +208,8 @@ def _rehearse_by_running(
     module: Mapping[str, Any],
 ) -> Any:
     """An analysis of a decorated ``run``: it is its own rehearsal."""
+    from .adapters.opentrons.rehearsal import Recorder, Recording, plain_values
     from .guarding import call_watched, new_watcher, say, text_of
-    from .preflight.rehearsal import Recorder, Recording, plain_values
 
     _announce_result(protocol, settings, "Layer 1 judges this run at its end.")
     recorder = Recorder() if settings.rules != "off" else None
@@ -241,9 +247,9 @@ def _preflight(
         ProtocolRejected: Layer 1 found errors, or could not judge the protocol, and ``rules`` is
             ``"on"`` or ``"strict"``.
     """
+    from .adapters.opentrons.rehearsal import RunPlan, find_script, record
+    from .adapters.opentrons.run_state import RunState
     from .guarding import Layer1, new_planner
-    from .preflight.rehearsal import RunPlan, find_script, record
-    from .runtime.run_state import RunState
 
     earlier = _GUARDS.get(protocol, 0)
     _GUARDS[protocol] = earlier + 1
@@ -320,8 +326,8 @@ def _unjudged(error: Exception, protocol: Any, settings: Settings, file_name: st
     Raises:
         ProtocolRejected: Nobody has judged it, and ``rules`` is ``"on"`` or ``"strict"``.
     """
+    from .adapters.opentrons.run_state import RunState
     from .guarding import Layer1
-    from .runtime.run_state import RunState
 
     fails_itself = isinstance(error, RehearsalError) and not isinstance(error, RehearsalTimeout)
     if isinstance(error, RehearsalError):

@@ -10,15 +10,15 @@ from contextvars import ContextVar
 from types import MappingProxyType, TracebackType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from .instrumentation import NameCollector, Operation, Tap
+from .adapters.opentrons.instrumentation import NameCollector, Operation, Tap
 from .known_tips import KnownTips
 from .settings import Settings
 from .vocabulary import one_line
 
 if TYPE_CHECKING:
+    from .adapters.opentrons.rehearsal import Recording, RunPlan
     from .followed_run import FollowedRun
     from .preflight.judging import Report
-    from .preflight.rehearsal import Recording, RunPlan
     from .runtime import Planner, RunControl, Watcher
 
 
@@ -80,7 +80,7 @@ class Guarding:
         layer1: Layer1,
         tips: KnownTips | None,
     ) -> None:
-        from .preflight.rehearsal import Recorder
+        from .adapters.opentrons.rehearsal import Recorder
 
         self._protocol = protocol
         self._settings = settings
@@ -120,9 +120,9 @@ class Guarding:
             self._taken_off = beginning.pop_all()
 
     def _follow(self, tap: Tap, names: NameCollector, hands: RunControl) -> FollowedRun:
+        from .adapters.opentrons.rehearsal import plain_values
         from .followed_run import FollowedRun
         from .preflight.live_judging import LiveJudge, RunKnowledge
-        from .preflight.rehearsal import plain_values
 
         layer1 = self._layer1
         around = RunKnowledge(
@@ -201,7 +201,7 @@ def _title(module: Mapping[str, Any]) -> str:
 
 def text_of(file_name: str, protocol: Any) -> str:
     """The source of the protocol that is running, ``""`` where it cannot be had."""
-    from .preflight.rehearsal import find_script
+    from .adapters.opentrons.rehearsal import find_script
 
     script = find_script(file_name, protocol)
     return script.text if script is not None else ""

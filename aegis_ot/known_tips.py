@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from .settings import Settings
-
-if TYPE_CHECKING:
-    pass
 
 
 class KnownTips:
@@ -20,7 +17,7 @@ class KnownTips:
     """
 
     def __init__(self) -> None:
-        from .preflight.rehearsal import Recorder
+        from .adapters.opentrons.rehearsal import Recorder
         from .preflight.trace import touched_by_tip
         from .runtime import TipForecast, TipKnowledge
 

@@ -41,8 +41,8 @@ def planted(plan: str) -> Callable[[Run], Run]:
     def decorate(run: Run) -> Run:
         @functools.wraps(run)
         def failing(protocol: Any) -> Any:
+            from .adapters.opentrons.rehearsal import rehearsal_under_way
             from .guarded_run import is_guarded
-            from .preflight.rehearsal import rehearsal_under_way
 
             # A guard from outside (a dry run's) would hear of what is planted.
             if rehearsal_under_way() is not None or is_guarded(protocol):

@@ -15,6 +15,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from aegis_ot.adapters.opentrons.rehearsal import Script
 from aegis_ot.dryrun import TRUSTING
 from aegis_ot.fleet.agent import AegisAgent
 from aegis_ot.fleet.config import FleetConfig, RobotConfig
@@ -24,7 +25,6 @@ from aegis_ot.fleet.report import FleetReport
 from aegis_ot.fleet.schedule import least_s, longest_first_s
 from aegis_ot.fleet.sessions import SimulatedSession, Watch
 from aegis_ot.preflight.judging import Report
-from aegis_ot.preflight.rehearsal import Script
 from aegis_ot.vocabulary import VerdictWord
 
 LATENCY_S = (8.0, 10.0)

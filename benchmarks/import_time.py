@@ -33,13 +33,9 @@ def main() -> None:
     import opentrons.simulate  # noqa: F401
 
     begun = time.process_time()
-    import aegis_ot
     from aegis_ot import guard  # noqa: F401
 
     imported = time.process_time()
-    import aegis_ot.guarded_run
-    import aegis_ot.preflight.check_protocol
-    import aegis_ot.preflight.rehearsal  # noqa: F401
 
     loaded = time.process_time()
     print(json.dumps({"import": (imported - begun) * 1e3, "layer1": (loaded - imported) * 1e3}))

@@ -53,17 +53,17 @@ def figures() -> Iterator[Figure]:
 
 def check(path: Path) -> None:
     """File to verdict, as ``aegis-ot check`` does it once Opentrons is loaded."""
+    from aegis_ot.adapters.opentrons.rehearsal import Script
     from aegis_ot.checking.files import read_protocol
     from aegis_ot.preflight import check_script
-    from aegis_ot.preflight.rehearsal import Script
 
     check_script(Script(read_protocol(path), path.name))
 
 
 def _verdict_share(path: Path) -> float:
     """Time of the verdict, rules loaded, over the time of the rehearsal."""
+    from aegis_ot.adapters.opentrons.rehearsal import Script
     from aegis_ot.preflight import Interpretation, judge, load_rules, record
-    from aegis_ot.preflight.rehearsal import Script
 
     script, rule_set = Script(path.read_text(), path.name), load_rules()
     begun = time.process_time()

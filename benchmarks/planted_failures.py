@@ -80,8 +80,8 @@ def measure(count: int, first: int) -> Iterator[Trial]:
 
 
 def _trial(fault: str, pipette: str, liquid: str, new_tip: str, seed: int) -> Trial:
+    from aegis_ot.adapters.opentrons.rehearsal import Script
     from aegis_ot.dryrun import TRUSTING, DryRunSettings, dry_run
-    from aegis_ot.preflight.rehearsal import Script
     from aegis_ot.sidecar import make_analyser
 
     rack, volume = PIPETTES[pipette]

@@ -257,7 +257,7 @@ def duration(pipette: str) -> tuple[int, float]:
     from opentrons.legacy_commands.types import COMMAND
     from opentrons.protocols.duration import DurationEstimator
 
-    from aegis_ot.preflight.rehearsal import Script, play
+    from aegis_ot.adapters.opentrons.rehearsal import Script, play
 
     plan = make_plan(pipette, "right", ["dye"], 30, 3)
     estimator = DurationEstimator()

@@ -102,8 +102,8 @@ def _run(
     text: str, faults: Sequence[str], seed: int, recover: dict[str, str]
 ) -> tuple[Any, list[Any]]:
     """The dry run, and every operation that the simulated robot did."""
+    from aegis_ot.adapters.opentrons.rehearsal import Recorder, Script
     from aegis_ot.dryrun import TRUSTING, DryRunProgress, DryRunSettings, dry_run
-    from aegis_ot.preflight.rehearsal import Recorder, Script
     from aegis_ot.sidecar import make_analyser
 
     recorder = Recorder()
@@ -123,9 +123,9 @@ def _run(
 def _contaminations(
     case: RuleContext, faults: Sequence[str], steps: list[Any]
 ) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    from aegis_ot.instrumentation import Event
+    from aegis_ot.adapters.opentrons.instrumentation import Event
+    from aegis_ot.adapters.opentrons.rehearsal import Script, record
     from aegis_ot.preflight.check_protocol import check_recording
-    from aegis_ot.preflight.rehearsal import Script, record
     from aegis_ot.settings import load_settings
 
     rehearsed = record(Script(case.text, "recovery.py"))
@@ -158,7 +158,7 @@ def _why(result: Any) -> str:
 
 def _as_it_happened(steps: Sequence[Any], faults: Sequence[str]) -> list[Any]:
     """The steps with what each fault kept back taken out of its first delivery."""
-    from aegis_ot.instrumentation import OperationKind
+    from aegis_ot.adapters.opentrons.instrumentation import OperationKind
 
     true = list(steps)
     for fault in faults:

@@ -240,7 +240,7 @@ class TestLive:
 
     @pytest.mark.parametrize("level", ["2.15", "2.24"])
     def test_analysis_and_live_show_the_same_command_types(self, form, level):
-        from aegis_ot.preflight.rehearsal import Script, play
+        from aegis_ot.adapters.opentrons.rehearsal import Script, play
 
         with stub_sidecar() as (url, _):
             text = protocol(GOOD, f'sidecar="{url}"', form, level)

@@ -7,8 +7,8 @@ import ast
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import Any
 
-from ..instrumentation import Event, EventKind, Operation, OperationKind
-from ..preflight.rehearsal import Recording
+from ..adapters.opentrons.instrumentation import Event, EventKind, Operation, OperationKind
+from ..adapters.opentrons.rehearsal import Recording
 from ..vocabulary import WellRef, counted
 from .plain_protocol import NotPlain, TipSession, plain_tree, plan_of, tip_sessions
 from .rest import HeldWell, Rest

@@ -8,6 +8,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from ..adapters.opentrons.instrumentation import Event, EventKind, Operation, OperationKind
+from ..adapters.opentrons.rehearsal import Recording
 from ..checking.engines import EngineMissing, engine_for, need_of
 from ..checking.files import read_protocol
 from ..checking.rehearser import TaskFailed
@@ -16,8 +18,6 @@ from ..checking.side_by_side import LazyRehearser
 from ..checking.surroundings import Placed, root_of, surroundings_of
 from ..checking.tasks import RecordTask
 from ..errors import ConfigurationError
-from ..instrumentation import Event, EventKind, Operation, OperationKind
-from ..preflight.rehearsal import Recording
 from ..runtime.planner import Planner
 from .rest import RehearsedDelivery
 

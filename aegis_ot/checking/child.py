@@ -18,7 +18,7 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
-from ..preflight.rehearsal import second_clock
+from ..adapters.opentrons.rehearsal import second_clock
 from .lasting import outlive
 from .link import CAN_FORK, Link, LinkAnswer
 from .problems import problem_of

@@ -6,7 +6,7 @@ import itertools
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from ..preflight.rehearsal import Parameter
+from ..adapters.opentrons.rehearsal import Parameter
 
 ALL_UP_TO = 32
 """Up to so many combinations all are tried; above, every pair of values occurs once at least."""

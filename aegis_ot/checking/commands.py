@@ -12,11 +12,18 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
-from ..instrumentation import Event, EventKind, LabwareInfo, Operation, OperationKind, PipetteInfo
-from ..instrumentation.labware_definitions import describe
-from ..instrumentation.modules import MODULE_ACTIONS
-from ..instrumentation.wells import wells_under
-from ..preflight.rehearsal import Recorder, Recording
+from ..adapters.opentrons.instrumentation import (
+    Event,
+    EventKind,
+    LabwareInfo,
+    Operation,
+    OperationKind,
+    PipetteInfo,
+)
+from ..adapters.opentrons.instrumentation.labware_definitions import describe
+from ..adapters.opentrons.instrumentation.modules import MODULE_ACTIONS
+from ..adapters.opentrons.instrumentation.wells import wells_under
+from ..adapters.opentrons.rehearsal import Recorder, Recording
 from ..vocabulary import WellRef
 from ..vocabulary.pipette_names import channels_of, largest_volume, least_volume
 from .nozzles import Layout, layout_of, offsets_of, whole_head

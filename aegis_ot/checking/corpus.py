@@ -172,7 +172,7 @@ def _judge_digest(project: Project) -> hashlib._Hash:
     if settings.baseline is not None:
         digest.update(settings.baseline.path.read_bytes())
     package = Path(__file__).resolve().parents[1]
-    sources = [package / room for room in ("instrumentation", "preflight")]
+    sources = [package / room for room in ("adapters", "preflight")]
     for place in [*sources, shipped_rules(), *map(Path, settings.rules)]:
         files = [place] if place.is_file() else sorted(place.rglob("*.py"))
         for file in files or sorted(place.glob("*.json")):

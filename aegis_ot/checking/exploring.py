@@ -6,8 +6,8 @@ import dataclasses
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
+from ..adapters.opentrons.rehearsal import Parameter, Script
 from ..preflight import Options, Report
-from ..preflight.rehearsal import Parameter, Script
 from ..vocabulary import Finding, Remark
 from .combinations import combinations, count_all, values_of
 from .rehearser import Rehearser, TaskFailed

@@ -9,7 +9,14 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
-from ..instrumentation import Event, EventKind, LabwareInfo, Operation, OperationKind, WellInfo
+from ..adapters.opentrons.instrumentation import (
+    Event,
+    EventKind,
+    LabwareInfo,
+    Operation,
+    OperationKind,
+    WellInfo,
+)
 from ..preflight import Interpretation, Report
 from ..preflight.trace import Trace, Well
 from ..vocabulary import Site, WellRef

@@ -6,11 +6,11 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from ..adapters.opentrons.instrumentation import Operation, tapped
+from ..adapters.opentrons.rehearsal import Recorder, Recording, Script, play, record
 from ..errors import AegisError, RehearsalError, RunAborted
 from ..guard import guard
 from ..guarding import AHEAD
-from ..instrumentation import Operation, tapped
-from ..preflight.rehearsal import Recorder, Recording, Script, play, record
 from ..runtime import Planner
 from ..vocabulary import Keyframe
 from .tasks import OfScript

@@ -10,8 +10,8 @@ import traceback
 from collections.abc import Iterator
 from pathlib import Path
 
+from ..adapters.opentrons.rehearsal import in_words, line_of
 from ..errors import AegisError, RehearsalError, RehearsalTimeout
-from ..preflight.rehearsal import in_words, line_of
 from .result import Problem
 from .surroundings import NO_SOURCES
 

@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import NamedTuple
 
 from .. import __version__
+from ..adapters.opentrons.rehearsal import undeclared
 from ..preflight import RuleSet
-from ..preflight.rehearsal import undeclared
 from .result import CheckedProtocol, CheckRun, Problem
 from .run import CheckSettings, check_alike
 

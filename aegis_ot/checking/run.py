@@ -11,9 +11,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from ..adapters.opentrons.rehearsal import Script
 from ..errors import AegisError, ConfigurationError, RehearsalError
 from ..preflight import Options, RuleSet
-from ..preflight.rehearsal import Script
 from ..preflight.source import source_lines
 from ..settings import Settings
 from ..vocabulary import Finding, Remark

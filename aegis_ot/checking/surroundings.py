@@ -20,7 +20,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from ..preflight.rehearsal import Script
+from ..adapters.opentrons.rehearsal import Script
 from ..vocabulary import Remark
 
 _LARGEST_MODULE_BYTES = 1_000_000

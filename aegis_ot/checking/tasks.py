@@ -9,15 +9,15 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Protocol, runtime_checkable
 
+from ..adapters.opentrons.rehearsal import Parameter, Script
 from ..errors import AegisError
 from ..preflight import Options, Report, RuleSet, load_rules
-from ..preflight.rehearsal import Parameter, Script
 from ..vocabulary import Dossier
 from .surroundings import standing_in_place
 
 if TYPE_CHECKING:
+    from ..adapters.opentrons.rehearsal import Recording
     from ..preflight import Interpretation
-    from ..preflight.rehearsal import Recording
     from .rule_examples import ExampleResult
 
 # What performs a task is loaded where it is performed: whoever sends it has no use for that.
@@ -142,7 +142,7 @@ class Describe(OfScript):
 
     def perform(self) -> tuple[Parameter, ...]:
         """Run ``add_parameters`` and read what it declared."""
-        from ..preflight.rehearsal import declared_parameters, interrupted_after, load
+        from ..adapters.opentrons.rehearsal import declared_parameters, interrupted_after, load
 
         limit = functools.partial(interrupted_after, self.timeout_s, self.script.file_name)
         with standing_in_place(self.script):
@@ -158,7 +158,7 @@ class RecordTask(OfScript):
 
     def perform(self) -> Recording:
         """Rehearse."""
-        from ..preflight.rehearsal import record
+        from ..adapters.opentrons.rehearsal import record
 
         with standing_in_place(self.script):
             return record(self.script, timeout_s=self.timeout_s)
@@ -175,7 +175,7 @@ class RunExamples:
 
     def perform(self) -> list[ExampleResult]:
         """Run them."""
-        from ..preflight.rehearsal import interrupted_after
+        from ..adapters.opentrons.rehearsal import interrupted_after
         from .rule_examples import run_examples
 
         with interrupted_after(self.timeout_s, self.file_name):

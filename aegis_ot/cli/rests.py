@@ -19,7 +19,7 @@ from .runs import DataFolder, known_run, open_data
 
 if TYPE_CHECKING:
     from ..account.rest import Rest, RestDelivery
-    from ..preflight.rehearsal import Recording
+    from ..adapters.opentrons.rehearsal import Recording
 
 app = typer.Typer()
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from ..instrumentation import Event, Operation, OperationKind, tapped
+from ..adapters.opentrons.instrumentation import Event, Operation, OperationKind, tapped
 from .summary import WellRow
 
 

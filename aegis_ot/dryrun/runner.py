@@ -16,6 +16,8 @@ from typing import Any
 from pydantic import SecretStr
 
 from ..account.overview import EndEntry, RunOverview
+from ..adapters.opentrons.instrumentation import Operation
+from ..adapters.opentrons.rehearsal import Recording, Script, play
 from ..checking.engines import EngineMissing, engine_for, need_of
 from ..checking.guard_arguments import guard_arguments
 from ..checking.playing import Planned, PlanRun, PlayGuarded, ending_of
@@ -24,9 +26,7 @@ from ..checking.rehearser import Rehearser, TaskFailed
 from ..errors import ConfigurationError, RehearsalError
 from ..guard import guard
 from ..guarding import AHEAD
-from ..instrumentation import Operation
 from ..preflight.check_protocol import check_recording, errors_of, rejection
-from ..preflight.rehearsal import Recording, Script, play
 from ..reports.run_html import report_run
 from ..runtime.descriptions import about_layer1
 from ..settings import load_settings

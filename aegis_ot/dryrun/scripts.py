@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
+from ..adapters.opentrons.rehearsal import Script
 from ..checking.files import read_labware, read_protocol, read_values
 from ..errors import ConfigurationError, RehearsalError
-from ..preflight.rehearsal import Script
 
 
 def read_script(path: Path, labware: Sequence[Path] = (), parameters: Sequence[str] = ()) -> Script:

@@ -21,7 +21,7 @@ from ..reports.run_html import ReportedRun
 from ..vocabulary import FailureType, Gate, Outcome, Route, WellRef, from_json, in_few_words
 
 if TYPE_CHECKING:
-    from ..preflight.rehearsal import Recording
+    from ..adapters.opentrons.rehearsal import Recording
 
 
 @dataclass(frozen=True)

@@ -7,8 +7,8 @@ import time
 import urllib.request
 from typing import Any
 
+from ..adapters.opentrons.instrumentation import Operation, OperationKind
 from ..errors import RunAborted
-from ..instrumentation import Operation, OperationKind
 from ..sidecar import Judged
 from ..vocabulary import Outcome
 

@@ -7,9 +7,9 @@ from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
+from ..adapters.opentrons.instrumentation import Operation, OperationKind
+from ..adapters.opentrons.rehearsal import Script, record
 from ..dryrun import read_script
-from ..instrumentation import Operation, OperationKind
-from ..preflight.rehearsal import Script, record
 
 _SECONDS = {
     OperationKind.PICK_UP_TIP: 6.0,

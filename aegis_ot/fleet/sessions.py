@@ -11,9 +11,9 @@ from pathlib import Path
 from typing import Any, Protocol
 
 from ..account import SeenWell
+from ..adapters.opentrons.instrumentation import Operation, OperationKind
 from ..dryrun import DryRunProgress, DryRunSettings, dry_run
 from ..errors import LinkError
-from ..instrumentation import Operation, OperationKind
 from ..reports.run_html import ReportedRun, report_run
 from ..robot import Command, RobotClient
 from ..robot.preparing import Inputs, analyse, refuse_what_is_not_there, take_offsets

@@ -23,9 +23,9 @@ from typing import TYPE_CHECKING
 from ..lazy import door
 
 if TYPE_CHECKING:
+    from ..adapters.opentrons.rehearsal import Script, record
     from .check_protocol import check_script
     from .judging import Interpretation, Options, Report, judge
-    from .rehearsal import Script, record
     from .rule_set import RuleSet, load_rules
 
 __getattr__ = door(

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from ..adapters.opentrons.rehearsal import Recording, Script, record
 from ..settings import Settings
 from ..vocabulary import Finding, Severity, counted
 from .judging import Interpretation, Options, Report, judge, unanswered
-from .rehearsal import Recording, Script, record
 from .rule_set import RuleSet, load_rules
 
 

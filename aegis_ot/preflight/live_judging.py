@@ -12,13 +12,20 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
+from ..adapters.opentrons.instrumentation import (
+    Event,
+    EventKind,
+    LabwareInfo,
+    NameBinding,
+    Operation,
+    OperationKind,
+)
+from ..adapters.opentrons.rehearsal import Comparison, Record, Recorder, Recording, RunPlan
 from ..errors import AegisError
-from ..instrumentation import Event, EventKind, LabwareInfo, NameBinding, Operation, OperationKind
 from ..settings import Settings
 from ..vocabulary import Finding
 from .check_protocol import counts_of, errors_of
 from .judging import Interpretation, Options, Report, judge, uncollected
-from .rehearsal import Comparison, Record, Recorder, Recording, RunPlan
 from .rule_set import RuleSet, load_rules
 
 GUARD = "aegis_ot: "

@@ -7,9 +7,9 @@ from pathlib import Path
 
 from pydantic import SecretStr
 
+from ..adapters.opentrons.rehearsal import Script, play
 from ..checking.engines import engine_for, need_of
 from ..errors import ConfigurationError
-from ..preflight.rehearsal import Script, play
 from ..sidecar import Analyser, SidecarConfig, make_analyser, running_sidecar
 from ..sidecar.config import CascadeSettings
 from ..simulation import SessionParameters, SimulatedCamera

@@ -8,9 +8,9 @@ import time
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, TypeVar
 
+from ..adapters.opentrons.instrumentation import PipetteInfo
 from ..checking.nozzles import Layout, under
 from ..errors import RobotError, RobotRefused, RobotUnreachable
-from ..instrumentation import PipetteInfo
 from ..vocabulary import WellRef
 from ..vocabulary.pipette_names import channels_of, largest_volume
 from .client import RobotClient

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import deque
 from dataclasses import dataclass
 
-from ..instrumentation import Operation
+from ..adapters.opentrons.instrumentation import Operation
 from ..runtime import Tracker
 from ..runtime.steps import Abandon, Capture, Step
 from ..vocabulary import Keyframe, KeyframeKind

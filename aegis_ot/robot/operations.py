@@ -9,9 +9,15 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from ..adapters.opentrons.instrumentation import (
+    Event,
+    EventKind,
+    Operation,
+    OperationKind,
+    PipetteInfo,
+)
 from ..checking.commands import KINDS
 from ..checking.nozzles import Layout, layout_of, whole_head
-from ..instrumentation import Event, EventKind, Operation, OperationKind, PipetteInfo
 from ..vocabulary import WellRef
 from .deck import Deck
 from .shapes import Command

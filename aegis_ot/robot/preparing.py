@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from ..adapters.opentrons.rehearsal import undeclared
 from ..errors import ConfigurationError, RobotError
-from ..preflight.rehearsal import undeclared
 from .client import RobotClient, Values
 from .needs import lacking
 from .offsets import known_offsets, offsets_in_file, tell_offsets

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from ..instrumentation import Operation, OperationKind
+from ..adapters.opentrons.instrumentation import Operation, OperationKind
 from .pipette_state import PipetteState
 from .steps import Trajectory
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import time
 
+from ..adapters.opentrons.run_state import RunState
 from ..http_client import SLICE_S
-from .run_state import RunState
 
 LAST_WORDS_S = 0.25
 """What a stop leaves for telling the sidecar how the run ended, s."""

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable
 from typing import NamedTuple
 
-from ..instrumentation import expel
+from ..adapters.opentrons.instrumentation import expel
 from ..vocabulary import WellRef
 
 TRACE_UL = 1e-3

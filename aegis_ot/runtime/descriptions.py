@@ -9,7 +9,7 @@ from pathlib import PurePath
 from typing import Any
 
 from .._version import __version__
-from ..instrumentation import Operation, OperationKind
+from ..adapters.opentrons.instrumentation import Operation, OperationKind
 from ..settings import Settings
 from ..vocabulary import (
     ChannelOutcome,

@@ -6,9 +6,10 @@ import time
 from collections.abc import Callable
 from typing import NoReturn
 
+from ..adapters.opentrons.instrumentation import Operation
+from ..adapters.opentrons.run_state import RunState, can_be_resumed
 from ..errors import LinkError, RunAborted
 from ..http_client import SLICE_S, CheckStop
-from ..instrumentation import Operation
 from ..settings import Settings
 from ..vocabulary import Outcome, Verdict, one_line, unobserved
 from .cancellation import CancellationToken
@@ -18,7 +19,6 @@ from .link_loss import LinkLossPolicy
 from .operator import LONGEST, Operator, no_news
 from .page_answers import PageAnswers, act_on_current_run
 from .recovering import NO_RECOVERY, RunRecoveries
-from .run_state import RunState, can_be_resumed
 from .sidecar_client import SidecarClient
 from .steps import Hold
 from .summary import WatchSummary

@@ -14,7 +14,7 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from typing import Any
 
-from .run_state import RunState
+from ..adapters.opentrons.run_state import RunState
 
 _LOOK_S = 0.1
 _KEPT_BACK = frozenset(

@@ -5,13 +5,13 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 
+from ..adapters.opentrons.run_state import RunState
 from ..errors import LinkError, RunAborted
 from ..settings import Settings
 from .cancellation import CancellationToken
 from .keyframe_sender import KeyframeSender
 from .operator import Operator, OperatorAnswer, no_news
 from .page_answers import Announce, PageAnswers
-from .run_state import RunState
 from .sidecar_client import CameraSilent, SidecarBusy
 from .summary import WatchSummary
 

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, Protocol
 
+from ..adapters.opentrons.instrumentation import Event, Operation
+from ..adapters.opentrons.run_refusal import refuse_everything
+from ..adapters.opentrons.run_state import RunState
 from ..errors import RunAborted
-from ..instrumentation import Event, Operation
 from ..settings import Settings
 from .cancellation import CancellationToken, Stopping
 from .operator import Operator, no_news
-from .refusal import refuse_everything
-from .run_state import RunState
 
 
 class RunControl(Protocol):
@@ -99,7 +99,7 @@ class Bystander:
         self._operator.end()
 
     def before(self, operation: Operation) -> None:
-        """Of :class:`aegis_ot.instrumentation.Listener`: nothing more is to be said."""
+        """Of :class:`.Listener`: nothing more is to be said."""
         self._operator.proceed()
 
     def after(self, operation: Operation) -> None:

@@ -10,11 +10,11 @@ from contextlib import AbstractContextManager, contextmanager, nullcontext
 from enum import Enum
 from typing import Any
 
+from ..adapters.opentrons.run_state import can_be_resumed
 from ..errors import RunAborted
 from ..vocabulary import one_line
 from .legacy_run import LegacyRun
 from .page_answers import PageAnswers
-from .run_state import can_be_resumed
 
 _REMIND_S = 60.0
 _POLL_S = 0.15

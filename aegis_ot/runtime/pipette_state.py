@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from ..instrumentation import Operation, OperationKind, PipetteInfo
+from ..adapters.opentrons.instrumentation import Operation, OperationKind, PipetteInfo
 from ..vocabulary import WellRef
 from .contents import Contents, DrawnLayer, liquid_of
 from .steps import Trajectory

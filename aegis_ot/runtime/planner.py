@@ -8,7 +8,7 @@ import re
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
-from ..instrumentation import Event, LabwareInfo, Operation
+from ..adapters.opentrons.instrumentation import Event, LabwareInfo, Operation
 from ..vocabulary import Keyframe
 from .steps import Abandon, Capture, Step
 from .tracker import Tracker
@@ -45,17 +45,17 @@ class Planner:
         return len(seen - self._abandoned)
 
     def before(self, operation: Operation) -> None:
-        """Of :class:`aegis_ot.instrumentation.Listener`."""
+        """Of :class:`.Listener`."""
         if self._listens():
             self._take(self._tracker.before(operation))
 
     def after(self, operation: Operation) -> None:
-        """Of :class:`aegis_ot.instrumentation.Listener`."""
+        """Of :class:`.Listener`."""
         if self._listens():
             self._take(self._tracker.after(operation))
 
     def event(self, event: Event) -> None:
-        """Of :class:`aegis_ot.instrumentation.Listener`."""
+        """Of :class:`.Listener`."""
         if self._listens():
             self._take(self._tracker.event(event))
 

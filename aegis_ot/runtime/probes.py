@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
-from ..instrumentation import Event, EventKind, Operation, OperationKind
+from ..adapters.opentrons.instrumentation import Event, EventKind, Operation, OperationKind
 from ..vocabulary import WellRef
 from .pipette_state import Place
 

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from ..instrumentation import Operation, OperationKind, Tap
+from ..adapters.opentrons.instrumentation import Operation, OperationKind, Tap
 from ..settings import Settings
 from ..vocabulary import Outcome, Verdict, WellRef
 from .pipette_state import in_place

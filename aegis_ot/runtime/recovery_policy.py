@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..instrumentation import Operation, OperationKind, is_repeatable
+from ..adapters.opentrons.instrumentation import Operation, OperationKind, is_repeatable
 from ..vocabulary import FailureType, Keyframe, Verdict, WellRef
 from .contents import TRACE_UL
 from .pipette_state import in_place, wells_of

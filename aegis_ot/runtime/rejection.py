@@ -6,11 +6,11 @@ import uuid
 from collections.abc import Mapping
 from typing import Any
 
+from ..adapters.opentrons.run_state import RunState
 from ..errors import LinkError
 from ..settings import Settings
 from .cancellation import CancellationToken, Stopping
 from .descriptions import about_guard, about_run
-from .run_state import RunState
 from .sidecar_client import SidecarClient
 
 _REQUEST_S = 1.0

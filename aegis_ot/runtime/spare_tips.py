@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from ..instrumentation import Event, EventKind, Operation, OperationKind
+from ..adapters.opentrons.instrumentation import Event, EventKind, Operation, OperationKind
 
 
 class TipForecast:
@@ -33,14 +33,14 @@ class TipForecast:
         """Only what was done counts."""
 
     def after(self, operation: Operation) -> None:
-        """Of :class:`aegis_ot.instrumentation.Listener`."""
+        """Of :class:`.Listener`."""
         if operation.kind is OperationKind.PICK_UP_TIP:
             self.used |= {(well.slot, well.name) for well in operation.wells if well is not None}
         elif operation.kind is OperationKind.DROP_TIP and not operation.disposal:
             self.returning.add(operation.pipette.mount)
 
     def event(self, event: Event) -> None:
-        """Of :class:`aegis_ot.instrumentation.Listener`."""
+        """Of :class:`.Listener`."""
         info = event.labware_info
         if event.kind is EventKind.LABWARE_LOADED and info is not None and info.is_tip_rack:
             self._racks[event.labware] = info.slot

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..instrumentation import Operation
+from ..adapters.opentrons.instrumentation import Operation
 from ..vocabulary import Keyframe, WellRef
 
 

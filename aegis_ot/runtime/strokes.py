@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..instrumentation import Operation, OperationKind
+from ..adapters.opentrons.instrumentation import Operation, OperationKind
 from ..vocabulary import Keyframe, KeyframeKind, WellRef
 from .contents import Contents, DrawnLayer, liquid_of
 from .pipette_state import unique, wells_of

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
-from ..instrumentation import Event, EventKind, Operation, OperationKind
+from ..adapters.opentrons.instrumentation import Event, EventKind, Operation, OperationKind
 from .awaiting import EXPELLING, Awaiting, describe, is_on
 from .contents import DrawnLayer, liquid_of
 from .ledger import Ledger

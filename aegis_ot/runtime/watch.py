@@ -9,9 +9,11 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
+from ..adapters.opentrons.instrumentation import Event, Operation, Tap
+from ..adapters.opentrons.run_refusal import refuse_everything
+from ..adapters.opentrons.run_state import RunState
 from ..errors import LinkError, RunAborted
 from ..http_client import CheckStop
-from ..instrumentation import Event, Operation, Tap
 from ..settings import Settings
 from ..vocabulary import Keyframe, KeyframeKind
 from .cancellation import LAST_WORDS_S, CancellationToken, Stopping
@@ -24,8 +26,6 @@ from .operator import Operator
 from .page_answers import PageAnswers
 from .probes import liquid_found, never_asked
 from .recovering import RunRecoveries, TipKnowledge
-from .refusal import refuse_everything
-from .run_state import RunState
 from .sidecar_client import SidecarClient
 from .steps import Abandon, Capture, Hold, Lift, Step
 from .summary import WatchSummary
@@ -122,7 +122,7 @@ class Watcher:
             raise
 
     def before(self, operation: Operation) -> None:
-        """Of :class:`aegis_ot.instrumentation.Listener`."""
+        """Of :class:`.Listener`."""
         goes_on = self._perform(self._tracker.before(operation), operation)
         if self._recovery is not None:
             self._recover(self._recovery, operation)
@@ -130,14 +130,14 @@ class Watcher:
             self._operator.proceed()
 
     def after(self, operation: Operation) -> None:
-        """Of :class:`aegis_ot.instrumentation.Listener`."""
+        """Of :class:`.Listener`."""
         if self._recovery is not None:
             self._recovery.strokes.done(operation)
         if self._perform(self._tracker.after(operation)):
             self._operator.proceed()
 
     def event(self, event: Event) -> None:
-        """Of :class:`aegis_ot.instrumentation.Listener`."""
+        """Of :class:`.Listener`."""
         if self._operator.busy:
             return  # the guard's own pauses and comments are no events
         if self._perform(self._tracker.event(event)):

@@ -8,8 +8,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from aegis_ot.adapters.opentrons.rehearsal import Script
 from aegis_ot.dryrun import TRUSTING, DryRunSettings, dry_run
-from aegis_ot.preflight.rehearsal import Script
 from aegis_ot.reasoning import Backend, Reply, Request, State, load_prices, request_size
 from aegis_ot.sidecar import Analyser, RunAnalysis, make_analyser
 from aegis_ot.sidecar.analysers import make_detector

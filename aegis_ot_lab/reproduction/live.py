@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from itertools import product
 from typing import Any
 
-from aegis_ot.preflight.rehearsal import Script
+from aegis_ot.adapters.opentrons.rehearsal import Script
 from aegis_ot.vision.reach import wilson
 from aegis_ot.vocabulary import Outcome as Said
 

@@ -5,8 +5,8 @@ import itertools
 from hypothesis import given
 from hypothesis import strategies as st
 
+from aegis_ot.adapters.opentrons.rehearsal import Parameter
 from aegis_ot.checking.combinations import VALUES_AT_MOST, combinations, values_of
-from aegis_ot.preflight.rehearsal import Parameter
 
 
 def test_values_of_each_kind() -> None:

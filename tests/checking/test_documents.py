@@ -8,10 +8,10 @@ from typing import Any
 
 import pytest
 
+from aegis_ot.adapters.opentrons.instrumentation import EventKind, Operation, OperationKind
 from aegis_ot.checking import CheckedProtocol, CheckSettings, Rehearser, check_files
 from aegis_ot.checking.commands import recording_of
 from aegis_ot.checking.documents import Analyse
-from aegis_ot.instrumentation import EventKind, Operation, OperationKind
 from aegis_ot.preflight import Script, load_rules, record
 from aegis_ot.reports import renderer
 

@@ -7,10 +7,10 @@ from typing import Any
 
 import pytest
 
+from aegis_ot.adapters.opentrons.rehearsal import Script, record
 from aegis_ot.checking import CheckRun, CheckSettings, check_files
 from aegis_ot.errors import RehearsalError
 from aegis_ot.preflight import load_rules
-from aegis_ot.preflight.rehearsal import Script, record
 
 DECLARES = """
 requirements = {"robotType": "OT-2", "apiLevel": "2.20"}

@@ -101,8 +101,9 @@ before = set(sys.modules)
 import time; begun = time.perf_counter()
 from aegis_ot import guard
 seconds = time.perf_counter() - begun
-import aegis_ot.guarded_run, aegis_ot.preflight.check_protocol, aegis_ot.preflight.rehearsal
-import aegis_ot.runtime, aegis_ot.settings, aegis_ot.instrumentation
+import aegis_ot.guarded_run, aegis_ot.preflight.check_protocol
+import aegis_ot.adapters.opentrons.rehearsal, aegis_ot.adapters.opentrons.instrumentation
+import aegis_ot.runtime, aegis_ot.settings
 new = sorted({name.split(".")[0] for name in set(sys.modules) - before})
 print(json.dumps({"new": new, "seconds": seconds}))
 """

@@ -132,7 +132,7 @@ def engine_commands(text, name):
     from opentrons.protocols.execution.execute_python import exec_add_parameters, exec_run
     from opentrons.protocols.parse import parse
 
-    from aegis_ot.preflight.rehearsal.simulated_context import simulated_context
+    from aegis_ot.adapters.opentrons.rehearsal.simulated_context import simulated_context
 
     try:
         protocol = parse(text, name)

@@ -7,10 +7,10 @@ from dataclasses import replace
 
 import pytest
 
+from aegis_ot.adapters.opentrons.rehearsal import Script
 from aegis_ot.checking.engines import Engine
 from aegis_ot.dryrun import TRUSTING, DryRunSettings, dry_run
 from aegis_ot.errors import ConfigurationError, RehearsalError
-from aegis_ot.preflight.rehearsal import Script
 from aegis_ot.reports.run_html import run_report_html
 from aegis_ot.sidecar import make_analyser
 from aegis_ot.sidecar.overview import runs_overview

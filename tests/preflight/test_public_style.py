@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
+from aegis_ot.adapters.opentrons.rehearsal import Script
 from aegis_ot.preflight import check_script, load_rules
-from aegis_ot.preflight.rehearsal import Script
 from aegis_ot.vocabulary import Severity
 
 HERE = Path(__file__).parent.parent / "protocols" / "public_style"

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
+from aegis_ot.adapters.opentrons.rehearsal import Script
 from aegis_ot.preflight import Options, Report, RuleSet, check_script, load_rules
-from aegis_ot.preflight.rehearsal import Script
 
 PROTOCOLS = Path(__file__).parent / "protocols"
 

@@ -12,10 +12,10 @@ from pathlib import Path
 import pytest
 from syrupy.assertion import SnapshotAssertion
 
+from aegis_ot.adapters.opentrons.rehearsal import Script
 from aegis_ot.checking.guard_arguments import guard_arguments
 from aegis_ot.checking.run import options_for
 from aegis_ot.preflight import Options, Report, check_script
-from aegis_ot.preflight.rehearsal import Script
 from aegis_ot.preflight.source import source_lines
 from aegis_ot.vocabulary import Finding
 

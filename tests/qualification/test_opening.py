@@ -7,8 +7,8 @@ from typing import Any
 
 import pytest
 
+from aegis_ot.adapters.opentrons.rehearsal import Script, play
 from aegis_ot.errors import ConfigurationError
-from aegis_ot.preflight.rehearsal import Script, play
 from aegis_ot.qualification.certificate import count_liquid
 from aegis_ot.qualification.opening import open_plan
 from aegis_ot.qualification.plan import QualificationPlan, QualifyingDelivery

@@ -7,10 +7,10 @@ from typing import Any
 import pytest
 
 from aegis_ot import guard
-from aegis_ot.instrumentation import Operation, OperationKind, tapped
+from aegis_ot.adapters.opentrons.instrumentation import Operation, OperationKind, tapped
+from aegis_ot.adapters.opentrons.rehearsal import Recorder, Script, play, record
 from aegis_ot.planted import KINDS
 from aegis_ot.preflight.check_protocol import check_recording, errors_of
-from aegis_ot.preflight.rehearsal import Recorder, Script, play, record
 from aegis_ot.qualification.plan import QualificationPlan, QualifyingDelivery
 from aegis_ot.qualification.protocol import GUARD, protocol_text
 from aegis_ot.robot.wrapping import wrap

@@ -6,10 +6,10 @@ import functools
 import textwrap
 from typing import Any
 
+from aegis_ot.adapters.opentrons.rehearsal import Script
 from aegis_ot.preflight import Options, Report, RuleSet, load_rules
 from aegis_ot.preflight.judging import Interpretation
 from aegis_ot.preflight.opinion import check_with_dossier
-from aegis_ot.preflight.rehearsal import Script
 from aegis_ot.reasoning import Message, Passage, PromptPicture, Request
 from aegis_ot.reasoning.answer import strict_object
 from aegis_ot.reasoning.backends import Clock

@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import pytest
 
-from aegis_ot.preflight.rehearsal import Script
+from aegis_ot.adapters.opentrons.rehearsal import Script
 from aegis_ot.reasoning import (
     AskingConfiguration,
     ReplayBackend,

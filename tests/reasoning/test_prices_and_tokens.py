@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
+from aegis_ot.adapters.opentrons.rehearsal import Script
 from aegis_ot.errors import ConfigurationError
 from aegis_ot.preflight.opinion import check_with_dossier
-from aegis_ot.preflight.rehearsal import Script
 from aegis_ot.reasoning import TokenUsage, load_prices, request_in, request_size
 from aegis_ot.reasoning.prompts_text import prompt
 from aegis_ot.reasoning.tokens import estimate_tokens

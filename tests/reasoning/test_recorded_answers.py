@@ -11,9 +11,9 @@ from pathlib import Path
 
 import pytest
 
+from aegis_ot.adapters.opentrons.rehearsal import Script
 from aegis_ot.preflight import Report
 from aegis_ot.preflight.opinion import check_with_dossier
-from aegis_ot.preflight.rehearsal import Script
 from aegis_ot.reasoning import ReplayBackend, ScriptedBackend, judge_in, request_in
 from aegis_ot.vocabulary import Severity, VerdictWord
 from aegis_ot_lab.batch import export_requests, import_answers

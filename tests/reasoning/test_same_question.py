@@ -15,7 +15,7 @@ import sys
 from pathlib import Path
 from aegis_ot.preflight import load_rules
 from aegis_ot.preflight.opinion import check_with_dossier
-from aegis_ot.preflight.rehearsal import Script
+from aegis_ot.adapters.opentrons.rehearsal import Script
 from aegis_ot.reasoning import request_in
 
 rule_set = load_rules()

@@ -10,11 +10,11 @@ from typing import Any
 
 import pytest
 
+from aegis_ot.adapters.opentrons.instrumentation import LabwareInfo, WellInfo
+from aegis_ot.adapters.opentrons.rehearsal import Script
 from aegis_ot.checking import CheckedProtocol, CheckRun
 from aegis_ot.checking.playback import marks_of, playback_of
-from aegis_ot.instrumentation import LabwareInfo, WellInfo
 from aegis_ot.preflight import Interpretation, Options, judge, load_rules, record
-from aegis_ot.preflight.rehearsal import Script
 from aegis_ot.reports.check_html import check_html
 from aegis_ot.vocabulary import Site, WellRef
 from tests.sidecar.browser import CHROMIUM, Browser, chromium

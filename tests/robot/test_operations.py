@@ -7,7 +7,7 @@ from typing import Any
 import httpx
 import pytest
 
-from aegis_ot.instrumentation import PipetteInfo
+from aegis_ot.adapters.opentrons.instrumentation import PipetteInfo
 from aegis_ot.robot import RobotClient
 from aegis_ot.robot.deck import Deck
 from aegis_ot.robot.operations import OperationReader

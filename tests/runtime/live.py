@@ -19,7 +19,7 @@ from typing import Any
 from opentrons.protocol_reader import ProtocolReader
 from opentrons.protocols.parse import PythonParseMode
 
-from aegis_ot.instrumentation.tap import tapped
+from aegis_ot.adapters.opentrons.instrumentation.tap import tapped
 from aegis_ot.runtime import Watcher
 from aegis_ot.settings import Settings
 

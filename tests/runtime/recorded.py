@@ -7,8 +7,8 @@ from typing import Any
 
 from opentrons import simulate
 
-from aegis_ot.instrumentation import Event, EventKind, Operation
-from aegis_ot.instrumentation.tap import tapped
+from aegis_ot.adapters.opentrons.instrumentation import Event, EventKind, Operation
+from aegis_ot.adapters.opentrons.instrumentation.tap import tapped
 from aegis_ot.runtime.steps import Abandon, Capture, Hold, Lift, Step
 from aegis_ot.runtime.tracker import Tracker
 

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 from opentrons.protocol_api import PARTIAL_COLUMN
 
-from aegis_ot.instrumentation import Operation
+from aegis_ot.adapters.opentrons.instrumentation import Operation
 
 from .recorded import Recorder, record
 

@@ -8,8 +8,8 @@ from typing import Any
 
 import pytest
 
+from aegis_ot.adapters.opentrons.rehearsal import Script, play
 from aegis_ot.guard import guard
-from aegis_ot.preflight.rehearsal import Script, play
 
 from .fake_sidecar import FakeSidecar, Handler
 from .live import LiveRun

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from aegis_ot.instrumentation import Operation, OperationKind, PipetteInfo
+from aegis_ot.adapters.opentrons.instrumentation import Operation, OperationKind, PipetteInfo
 from aegis_ot.runtime.recovery_policy import NotAllowed, Plan, plan_recovery
 from aegis_ot.runtime.strokes import RecordedDelivery
 from aegis_ot.vocabulary import (

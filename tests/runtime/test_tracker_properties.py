@@ -8,7 +8,13 @@ from typing import Any
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from aegis_ot.instrumentation import Event, EventKind, Operation, OperationKind, PipetteInfo
+from aegis_ot.adapters.opentrons.instrumentation import (
+    Event,
+    EventKind,
+    Operation,
+    OperationKind,
+    PipetteInfo,
+)
 from aegis_ot.runtime.pipette_state import in_place
 from aegis_ot.runtime.steps import Abandon, Capture, Hold, Lift, Step
 from aegis_ot.runtime.tracker import Tracker

@@ -11,10 +11,10 @@ from typing import Any
 import pytest
 from opentrons import simulate
 
+from aegis_ot.adapters.opentrons.instrumentation.tap import tapped
+from aegis_ot.adapters.opentrons.run_state import RunState, can_be_resumed
 from aegis_ot.errors import RunAborted
-from aegis_ot.instrumentation.tap import tapped
 from aegis_ot.runtime import Watcher
-from aegis_ot.runtime.run_state import RunState, can_be_resumed
 from aegis_ot.settings import Settings
 
 from .fake_sidecar import FakeSidecar, Handler, once

@@ -11,7 +11,7 @@ import cv2
 import numpy as np
 import pytest
 
-from aegis_ot.instrumentation import LabwareInfo
+from aegis_ot.adapters.opentrons.instrumentation import LabwareInfo
 from aegis_ot.runtime.planner import Planner
 from aegis_ot.sidecar import SidecarConfig, running_sidecar
 from aegis_ot.sidecar.cameras.codec import encode_jpeg

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from aegis_ot.instrumentation import (
+from aegis_ot.adapters.opentrons.instrumentation import (
     Event,
     EventKind,
     LabwareInfo,
@@ -14,7 +14,7 @@ from aegis_ot.instrumentation import (
     PipetteInfo,
     WellInfo,
 )
-from aegis_ot.preflight.rehearsal import Recorder
+from aegis_ot.adapters.opentrons.rehearsal import Recorder
 from aegis_ot.preflight.rule_set import load_rules
 from aegis_ot.preflight.trace import Trace, Well, build_trace
 from aegis_ot.vocabulary import WellRef

@@ -5,8 +5,8 @@ from __future__ import annotations
 import textwrap
 from dataclasses import dataclass, field
 
-from aegis_ot.instrumentation import Event, Operation, OperationKind
-from aegis_ot.preflight.rehearsal import Recording, Script, record
+from aegis_ot.adapters.opentrons.instrumentation import Event, Operation, OperationKind
+from aegis_ot.adapters.opentrons.rehearsal import Recording, Script, record
 
 FILE_NAME = "protocol.py"
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from itertools import islice
 from typing import Literal
 
-from ...instrumentation import OperationKind
+from ...adapters.opentrons.instrumentation import OperationKind
 from ...vocabulary import Site
 from ..rules import role_names
 from ..source import comparable

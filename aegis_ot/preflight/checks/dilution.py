@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from ...instrumentation import OperationKind
+from ...adapters.opentrons.instrumentation import OperationKind
 from ...vocabulary import Site
 from ..trace import Tip, Transfer, Visit, Well
 from .check import Check, Doubt, Result, Violation

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from ...instrumentation import EventKind, OperationKind
+from ...adapters.opentrons.instrumentation import EventKind, OperationKind
 from ...vocabulary import Site
 from ..rules import role_names
 from ..trace import EMPTY_UL, Visit, Well

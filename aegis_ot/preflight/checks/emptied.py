@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from ...instrumentation import OperationKind
+from ...adapters.opentrons.instrumentation import OperationKind
 from ...vocabulary import Site
 from ..source import lexicon_of
 from ..trace import FALLS_MM, Visit, Well

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from ...instrumentation import LabwareInfo, Operation, OperationKind, wells_under
+from ...adapters.opentrons.instrumentation import LabwareInfo, Operation, OperationKind, wells_under
 from ...vocabulary import Site, WellRef, counted
 from ..trace import Beside
 from .check import Check, Result, Violation

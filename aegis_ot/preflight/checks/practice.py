@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ...instrumentation import OperationKind
+from ...adapters.opentrons.instrumentation import OperationKind
 from ..trace import Met, Visit, Well
 from .rule_context import RuleContext
 

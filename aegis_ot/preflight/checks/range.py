@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
-from ...instrumentation import Operation, OperationKind
+from ...adapters.opentrons.instrumentation import Operation, OperationKind
 from ...vocabulary import Site, WellRef
 from .check import Check, Result, Violation, microlitres
 from .handling import called

@@ -9,7 +9,7 @@ from functools import cache, cached_property
 from itertools import islice
 from typing import Any, TypeVar
 
-from ...instrumentation import OperationKind
+from ...adapters.opentrons.instrumentation import OperationKind
 from ...vocabulary import WellRef
 from ..roles import Roles
 from ..rules import Common, Family

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from ...instrumentation import OperationKind
+from ...adapters.opentrons.instrumentation import OperationKind
 from ...vocabulary import Site
 from ..trace import Imbalance, Visit, Well
 from .check import Check, Doubt, Result, Violation, microlitres

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import pairwise
 
-from ...instrumentation import Event, EventKind, Operation, OperationKind
+from ...adapters.opentrons.instrumentation import Event, EventKind, Operation, OperationKind
 from ...vocabulary import Site, WellRef, counted
 from ..trace import Given, Load, Visit, Well
 from .check import Check, Result, Violation, microlitres

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from ...instrumentation import NameBinding
+from ...adapters.opentrons.instrumentation import NameBinding
 from ..rules import Common
 from ..source import SourceFacts
 from ..trace import Trace

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Sequence
 
-from ...instrumentation import LabwareInfo, NameBinding
+from ...adapters.opentrons.instrumentation import LabwareInfo, NameBinding
 from ...vocabulary import WellRef
 from ..source import tokens
 from ..trace import Trace, row_column

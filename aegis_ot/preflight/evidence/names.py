@@ -6,7 +6,7 @@ import re
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 
-from ...instrumentation import NameBinding
+from ...adapters.opentrons.instrumentation import NameBinding
 from ...vocabulary import WellRef
 from ..rules import Common
 from ..source import SourceFacts, level_in, lexicon_of, tokens

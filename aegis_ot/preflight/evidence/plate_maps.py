@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 
-from ...instrumentation import NameBinding, PlateMapRow, is_spot
+from ...adapters.opentrons.instrumentation import NameBinding, PlateMapRow, is_spot
 from ...vocabulary import WellRef
 from ..rules import Common
 from ..source import Index, SourceFacts, level_in, lexicon_of

@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from ...instrumentation import LabwareInfo
+from ...adapters.opentrons.instrumentation import LabwareInfo
 from ...vocabulary import one_line
 from ..source import SourceFacts
 from .deck import DeckNames

@@ -9,11 +9,11 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 
-from ...instrumentation import Operation
+from ...adapters.opentrons.instrumentation import Operation
+from ...adapters.opentrons.rehearsal import Recording
 from ...vocabulary import WellRef
 from ..checks import RuleContext
 from ..evidence import DeckNames, Evidence, Kind, gather
-from ..rehearsal import Recording
 from ..roles import Inference, Roles, assign_roles, derive, implied_contents, infer_families
 from ..rule_set import RuleSet
 from ..rules import Family, RuleSpec

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 
+from ...adapters.opentrons.instrumentation import OperationKind
 from ...errors import ConfigurationError
-from ...instrumentation import OperationKind
 from ...vocabulary import Remark, Site, Undecided, WellRef
 from ..checks import Check, Doubt, RuleContext, Violation
 from ..evidence import Kind, unknown_places

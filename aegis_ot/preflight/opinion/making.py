@@ -5,9 +5,9 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable, Sequence
 
+from ...adapters.opentrons.rehearsal import Recording, Script, record
 from ...vocabulary import DeckItem, Dossier, RoleLine, RuleBrief, Severity, WellRef
 from ..judging import Interpretation, Options, Report, RoleEvidence, judge, missing_needs
-from ..rehearsal import Recording, Script, record
 from ..rule_set import RuleSet, load_rules, shipped_rules
 from ..rules import RuleSpec
 from ..trace import places, row_column, trace_table

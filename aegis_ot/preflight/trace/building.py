@@ -10,9 +10,15 @@ import math
 import re
 from collections.abc import Callable, Collection, Mapping, Sequence
 
-from ...instrumentation import Event, EventKind, LabwareInfo, Operation, OperationKind
+from ...adapters.opentrons.instrumentation import (
+    Event,
+    EventKind,
+    LabwareInfo,
+    Operation,
+    OperationKind,
+)
+from ...adapters.opentrons.rehearsal import Record, Recorder
 from ...vocabulary import WellRef
-from ..rehearsal import Record, Recorder
 from .geometry import CLEARANCE_MM, Contact
 from .model import Layer, Tip, Transfer, Visit, Well
 from .pauses import Words, read_pause, topics_in

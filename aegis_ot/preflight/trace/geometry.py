@@ -13,7 +13,7 @@ from collections.abc import Mapping
 from enum import IntEnum
 from typing import Any
 
-from ...instrumentation import WellInfo
+from ...adapters.opentrons.instrumentation import WellInfo
 
 OVER_NOMINAL = 1.1
 """Brim volume by nominal volume, at least, where no geometry tells (``spec/rules.md``)."""

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
-from ...instrumentation import Operation, OperationKind, expel
+from ...adapters.opentrons.instrumentation import Operation, OperationKind, expel
 from .model import Layer, Visit, Well
 from .trace import Trace
 

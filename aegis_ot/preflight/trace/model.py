@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
-from ...instrumentation import Operation, OperationKind, expel
+from ...adapters.opentrons.instrumentation import Operation, OperationKind, expel
 from ...vocabulary import WellRef
 from .geometry import CLEARANCE_MM, Contact, Geometry, row_column
 

@@ -11,7 +11,7 @@ import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from ...instrumentation import LabwareInfo
+from ...adapters.opentrons.instrumentation import LabwareInfo
 from ..source import lexicon_of, tokens
 
 _SLOT = re.compile(

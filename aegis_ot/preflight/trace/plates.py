@@ -6,7 +6,7 @@ import math
 from collections import Counter
 from collections.abc import Callable, Collection, Mapping
 
-from ...instrumentation import LabwareInfo, WellInfo
+from ...adapters.opentrons.instrumentation import LabwareInfo, WellInfo
 from ...vocabulary import WellRef
 from .geometry import Geometry
 from .model import Well

@@ -17,7 +17,7 @@ from functools import partial
 from itertools import groupby, pairwise, takewhile
 from typing import TypeVar
 
-from ...instrumentation import OperationKind
+from ...adapters.opentrons.instrumentation import OperationKind
 from ...vocabulary import WellRef
 from .geometry import row_column
 from .model import Visit

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence, Set
 from dataclasses import dataclass, field
 from functools import cached_property
 
-from ...instrumentation import Event, LabwareInfo, Operation, OperationKind
+from ...adapters.opentrons.instrumentation import Event, LabwareInfo, Operation, OperationKind
 from ...vocabulary import WellRef
 from .model import Tip, Transfer, Visit, Well
 

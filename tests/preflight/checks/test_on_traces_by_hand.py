@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import pytest
 
-from aegis_ot.instrumentation import OperationKind
+from aegis_ot.adapters.opentrons.instrumentation import OperationKind
 from aegis_ot.preflight.evidence import Evidence, Kind
 from aegis_ot.preflight.roles import derive
 from aegis_ot.preflight.trace import Contact

@@ -8,10 +8,10 @@ from dataclasses import replace
 
 import pytest
 
+from aegis_ot.adapters.opentrons.rehearsal import Recording
 from aegis_ot.errors import ConfigurationError
 from aegis_ot.preflight import Interpretation, Options, Report, Script, judge, load_rules, record
 from aegis_ot.preflight.check_protocol import summary
-from aegis_ot.preflight.rehearsal import Recording
 
 PROTOCOL = """
     metadata = {"apiLevel": "2.15", "protocolName": "qPCR set-up"}

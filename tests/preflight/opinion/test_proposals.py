@@ -6,11 +6,11 @@ import functools
 
 import pytest
 
+from aegis_ot.adapters.opentrons.rehearsal import Script
 from aegis_ot.preflight import Options, load_rules, record
 from aegis_ot.preflight.evidence import Evidence, Kind
 from aegis_ot.preflight.judging import Interpretation
 from aegis_ot.preflight.opinion.proposals import verify_proposals
-from aegis_ot.preflight.rehearsal import Script
 from aegis_ot.vocabulary import Citation, RoleProposal
 
 PROTOCOL = """metadata = {"apiLevel": "2.15", "protocolName": "PCR set-up"}

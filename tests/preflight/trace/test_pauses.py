@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import pytest
 
-from aegis_ot.instrumentation import LabwareInfo, WellInfo
+from aegis_ot.adapters.opentrons.instrumentation import LabwareInfo, WellInfo
 from aegis_ot.preflight import Report, Script, check_script, load_rules
 from aegis_ot.preflight.trace.pauses import Intervention, read_pause
 

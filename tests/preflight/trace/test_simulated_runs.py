@@ -6,7 +6,7 @@ import textwrap
 
 import pytest
 
-from aegis_ot.preflight.rehearsal import Script, record
+from aegis_ot.adapters.opentrons.rehearsal import Script, record
 from aegis_ot.preflight.rule_set import load_rules
 from aegis_ot.preflight.trace import Trace, Visit, Well, build_trace
 from tests.support.rehearsing import flex, ot2

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from aegis_ot.instrumentation import EventKind, WellInfo
+from aegis_ot.adapters.opentrons.instrumentation import EventKind, WellInfo
 from aegis_ot.preflight.trace import Contact
 from aegis_ot.preflight.trace.plates import Plates
 from aegis_ot.preflight.trace.tips import TipBox

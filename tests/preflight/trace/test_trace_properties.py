@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from aegis_ot.instrumentation import WellInfo
+from aegis_ot.adapters.opentrons.instrumentation import WellInfo
 from aegis_ot.preflight.trace import Contact, Tip, Well, trace_table
 from aegis_ot.preflight.trace.geometry import Geometry
 from aegis_ot.preflight.trace.model import Layer

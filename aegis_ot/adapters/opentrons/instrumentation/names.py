@@ -18,7 +18,7 @@ from dataclasses import dataclass
 from types import CodeType, FrameType
 from typing import Any
 
-from ..vocabulary import WellRef
+from ....vocabulary import WellRef
 from .callsite import ProtocolStack
 from .objects import is_member, word_of
 from .own_code import helper_modules

@@ -5,7 +5,7 @@ Door: :func:`record` runs a :class:`Script`, with further listeners if there are
 
 from typing import TYPE_CHECKING
 
-from ...lazy import door
+from ....lazy import door
 
 if TYPE_CHECKING:
     from .interruption import interrupted_after, second_clock

@@ -7,8 +7,8 @@ import weakref
 
 import pytest
 
-from aegis_ot.instrumentation import EventKind, OperationKind, tapped
-from aegis_ot.preflight.rehearsal.simulated_context import simulated_context
+from aegis_ot.adapters.opentrons.instrumentation import EventKind, OperationKind, tapped
+from aegis_ot.adapters.opentrons.rehearsal.simulated_context import simulated_context
 from tests.support.rehearsing import Heard, flex, ot2, run
 
 K = OperationKind

@@ -12,8 +12,8 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any
 
-from ...instrumentation import Event, EventKind, Operation, OperationKind, Tap
-from ...vocabulary import WellRef
+from ....vocabulary import WellRef
+from ..instrumentation import Event, EventKind, Operation, OperationKind, Tap
 from .recording import Recorder
 
 _SEVERAL = {

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from ...errors import RehearsalError
+from ....errors import RehearsalError
 from .refusals import in_words, line_of, stopped
 from .script import Script
 

@@ -11,8 +11,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from ...instrumentation import Event, EventKind, Operation, OperationKind
-from ...vocabulary import WellRef
+from ....vocabulary import WellRef
+from ..instrumentation import Event, EventKind, Operation, OperationKind
 
 _COMPARED = {
     OperationKind.PICK_UP_TIP: "picks up a tip",
@@ -185,7 +185,7 @@ class RunPlan:
         """Only what was done counts."""
 
     def after(self, operation: Operation) -> None:
-        """Of :class:`aegis_ot.instrumentation.Listener`."""
+        """Of :class:`.Listener`."""
         step = self._steps.of(operation) if self._listens else None
         self._steps.done(operation)
         if step is not None and not _goes_on(self.steps[-1] if self.steps else None, step):

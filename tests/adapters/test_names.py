@@ -7,9 +7,9 @@ import sys
 
 import pytest
 
+from aegis_ot.adapters.opentrons.instrumentation import EventKind
+from aegis_ot.adapters.opentrons.instrumentation.value_reader import ValueReader
 from aegis_ot.errors import RehearsalError
-from aegis_ot.instrumentation import EventKind
-from aegis_ot.instrumentation.value_reader import ValueReader
 from tests.support.rehearsing import ot2, run
 
 

@@ -9,9 +9,9 @@ from contextlib import contextmanager
 
 import pytest
 
+from aegis_ot.adapters.opentrons.rehearsal import Script, interrupted_after, record, second_clock
+from aegis_ot.adapters.opentrons.rehearsal.virtual_time import builtins_in_virtual_time
 from aegis_ot.errors import RehearsalError, RehearsalTimeout
-from aegis_ot.preflight.rehearsal import Script, interrupted_after, record, second_clock
-from aegis_ot.preflight.rehearsal.virtual_time import builtins_in_virtual_time
 
 
 def script(body: str) -> Script:

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from types import FrameType
 from typing import Any
 
-from .errors import AegisError
+from ...errors import AegisError
 
 
 def make_final(error: AegisError, protocol: Any, file_name: str, frame: FrameType) -> None:
@@ -16,7 +16,7 @@ def make_final(error: AegisError, protocol: Any, file_name: str, frame: FrameTyp
 
     Nothing moves after it, and a ``run`` that returns all the same raises it again.
     """
-    from .runtime.refusal import refuse_everything
+    from .run_refusal import refuse_everything
 
     refuse_everything(protocol, error, file_name)
     run = outermost(frame, file_name)

@@ -12,7 +12,7 @@ import traceback
 from collections.abc import Sequence
 from typing import Any
 
-from ...errors import RehearsalError
+from ....errors import RehearsalError
 
 _NOZZLES = "configure_nozzle_layout"
 _WRAPPED = re.compile(r"^\w+: Error \d+ [A-Z_]+ \((?P<kind>\w+)\): (?P<text>.*)$", re.DOTALL)

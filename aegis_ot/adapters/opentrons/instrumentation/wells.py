@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from ..vocabulary import WellRef
+from ....vocabulary import WellRef
 from .labware import LabwareInfo
 from .labware_definitions import describe
 

@@ -14,8 +14,8 @@ from contextvars import ContextVar
 from functools import partial
 from typing import Any
 
-from ...errors import AegisError, RehearsalError
-from ...instrumentation import Listener, NameCollector, tapped
+from ....errors import AegisError, RehearsalError
+from ..instrumentation import Listener, NameCollector, tapped
 from .interruption import interrupted_after
 from .loading import load
 from .parameters import Limit, copied_parameters, lacking_files, plain_values, runtime_parameters

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
-from ..vocabulary import WellRef
+from ....vocabulary import WellRef
 from .callsite import CallSite
 from .labware import LabwareInfo
 from .operation import Operation, OperationKind, PipetteInfo

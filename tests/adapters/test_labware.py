@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from aegis_ot.instrumentation.labware import LabwareInfo, WellInfo
+from aegis_ot.adapters.opentrons.instrumentation.labware import LabwareInfo, WellInfo
 
 
 def test_of_two_wells_at_one_place_the_first_is_found_there() -> None:

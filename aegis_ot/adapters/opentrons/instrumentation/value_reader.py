@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from types import BuiltinFunctionType, FunctionType, ModuleType, SimpleNamespace
 from typing import Any, NamedTuple, TypeAlias
 
-from ..vocabulary import WellRef
+from ....vocabulary import WellRef
 from .objects import attributes, is_enum, is_member, members, value_of, word_of
 from .own_code import is_helper_module
 from .wells import WellResolver

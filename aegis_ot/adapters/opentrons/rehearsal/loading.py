@@ -8,7 +8,7 @@ from __future__ import annotations
 import ast
 from typing import Any
 
-from ...errors import RehearsalError
+from ....errors import RehearsalError
 from .refusals import error_at
 from .script import Script
 

@@ -15,7 +15,7 @@ from collections.abc import Callable, Iterator
 from types import FrameType, MethodType
 from typing import Any
 
-from ..errors import AegisError
+from ...errors import AegisError
 
 PATIENCE = 3
 """Refused operations after which a protocol is taken to try again and again."""

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field, replace
 from enum import Enum
 from typing import Any, Protocol
 
-from ..vocabulary import WellRef
+from ....vocabulary import WellRef
 from .labware import LabwareInfo
 
 

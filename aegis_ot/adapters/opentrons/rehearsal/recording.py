@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
-from ...instrumentation import (
+from ..instrumentation import (
     Event,
     EventKind,
     LabwareInfo,

@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from contextvars import ContextVar
 
-from ...errors import RehearsalError, RehearsalTimeout
+from ....errors import RehearsalError, RehearsalTimeout
 from .refusals import line_of
 
 _LOOK_S = 0.1
