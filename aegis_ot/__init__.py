@@ -10,9 +10,9 @@ from .guard import guard
 from .lazy import door
 
 if TYPE_CHECKING:
-    from .checking.api import check
+    from .workbench.api import check
 
 # The robot loads the guard alone.
-__getattr__ = door(__name__, {"checking.api": "check"})
+__getattr__ = door(__name__, {"workbench.api": "check"})
 
 __all__ = ["__version__", "check", "guard"]

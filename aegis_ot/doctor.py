@@ -16,8 +16,8 @@ from typing import Any
 
 from ._version import __version__
 from .errors import AegisError, CameraError, StoreError
-from .reasoning import make_backend
-from .reasoning.backends.service import ServiceBackend
+from .llm import make_backend
+from .llm.backends.service import ServiceBackend
 from .settings import load_settings
 from .sidecar.aiming import Aim
 from .sidecar.alerts.notifications import Notifier

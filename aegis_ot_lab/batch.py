@@ -14,11 +14,11 @@ from pathlib import Path
 from typing import Any
 
 from aegis_ot.errors import ConfigurationError
+from aegis_ot.llm.backend import Request, State
+from aegis_ot.llm.backends.exporting import ids_by_file, lines_of, read_requests, request_line
+from aegis_ot.llm.backends.recording import add_answer, keep_picture
+from aegis_ot.llm.schema import problem_of, read_answer
 from aegis_ot.preflight.opinion import quote_problem
-from aegis_ot.reasoning.backend import Request, State
-from aegis_ot.reasoning.backends.exporting import ids_by_file, lines_of, read_requests, request_line
-from aegis_ot.reasoning.backends.recording import add_answer, keep_picture
-from aegis_ot.reasoning.schema import problem_of, read_answer
 from aegis_ot.vocabulary import Citation
 
 

@@ -54,8 +54,8 @@ def figures() -> Iterator[Figure]:
 def check(path: Path) -> None:
     """File to verdict, as ``aegis-ot check`` does it once Opentrons is loaded."""
     from aegis_ot.adapters.opentrons.rehearsal import Script
-    from aegis_ot.checking.files import read_protocol
     from aegis_ot.preflight import check_script
+    from aegis_ot.workbench.files import read_protocol
 
     check_script(Script(read_protocol(path), path.name))
 

@@ -22,7 +22,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from aegis_ot.checking.engines import Engine, Need, here, installed, need_of
+from aegis_ot.workbench.engines import Engine, Need, here, installed, need_of
 
 AT_ONCE = 16
 """Protocols for which one interpreter of a processor is started."""

@@ -8,10 +8,10 @@ from pathlib import Path
 
 import pytest
 
-from aegis_ot.checking.configuration import read_configuration
 from aegis_ot.preflight.rules import Family
 from aegis_ot.settings import Settings
 from aegis_ot.sidecar.config import ENVIRONMENT, SidecarConfig
+from aegis_ot.workbench.configuration import read_configuration
 from scripts.cli_reference import root
 from scripts.sentences import MOST, MOST_ON_AVERAGE, measured, pages, sentences, words
 

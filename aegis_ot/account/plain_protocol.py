@@ -10,15 +10,15 @@ from typing import Any
 
 from ..adapters.opentrons.instrumentation import Event, EventKind, Operation, OperationKind
 from ..adapters.opentrons.rehearsal import Recording
-from ..checking.engines import EngineMissing, engine_for, need_of
-from ..checking.files import read_protocol
-from ..checking.rehearser import TaskFailed
-from ..checking.shelf import with_own_values
-from ..checking.side_by_side import LazyRehearser
-from ..checking.surroundings import Placed, root_of, surroundings_of
-from ..checking.tasks import RecordTask
 from ..errors import ConfigurationError
 from ..runtime.planner import Planner
+from ..workbench.engines import EngineMissing, engine_for, need_of
+from ..workbench.files import read_protocol
+from ..workbench.rehearser import TaskFailed
+from ..workbench.shelf import with_own_values
+from ..workbench.side_by_side import LazyRehearser
+from ..workbench.surroundings import Placed, root_of, surroundings_of
+from ..workbench.tasks import RecordTask
 from .rest import RehearsedDelivery
 
 _TIMEOUT_S = 120.0

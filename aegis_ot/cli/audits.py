@@ -163,8 +163,8 @@ def _gate(
         if budget is not None or calls is not None:
             raise ConfigurationError("--budget, --calls: no model is asked. Name one with --model.")
         return None
-    from ..reasoning import load_prices
-    from ..reasoning.gate_tiers import Budget, VlmTiers
+    from ..llm import load_prices
+    from ..llm.gate_tiers import Budget, VlmTiers
 
     asked = 10 if calls is None and budget is None else calls
     return VlmTiers([backend], load_prices(), Budget(budget, asked))

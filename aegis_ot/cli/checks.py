@@ -12,16 +12,16 @@ from typing import Annotated, Any
 
 import typer
 
-from ..checking import Asking, CheckRun, Configuration, Project, check_projects, configurations_of
-from ..checking.baseline import baseline_text, read_baseline
-from ..checking.call_settings import settings_of
-from ..checking.shelf import protocols_named
-from ..checking.side_by_side import processors
 from ..errors import ConfigurationError
 from ..reports import FORMATS, SHOW_ROLES, renderer
 from ..reports.check_text import check_text
 from ..reports.wrapping import wrapped
 from ..vocabulary import VerdictWord, counted
+from ..workbench import Asking, CheckRun, Configuration, Project, check_projects, configurations_of
+from ..workbench.baseline import baseline_text, read_baseline
+from ..workbench.call_settings import settings_of
+from ..workbench.shelf import protocols_named
+from ..workbench.side_by_side import processors
 from .counting import Counting
 from .engines import InstallEngines, install_for_files
 from .exit_codes import BROKEN, CLEAN
@@ -190,7 +190,7 @@ def check(
         raise typer.Exit(BROKEN)
     _show(run, output_format, output)
     if roles_file:
-        from ..checking.roles_template import roles_template
+        from ..workbench.roles_template import roles_template
 
         write_text(roles_file, roles_template(run.protocols[0], projects[0].rule_set))
         typer.echo(f"{roles_file}: the roles, to be completed and pasted.", err=True)

@@ -12,12 +12,14 @@ from typing import Annotated
 import typer
 from rich.progress import TimeRemainingColumn
 
-from ..checking import Project, configurations_of
-from ..checking.baseline import read_baseline
-from ..checking.call_settings import settings_of
-from ..checking.corpus import check_corpus
-from ..checking.corpus_changes import VerdictChange, changes
-from ..checking.corpus_table import (
+from ..errors import ConfigurationError
+from ..vocabulary import counted
+from ..workbench import Project, configurations_of
+from ..workbench.baseline import read_baseline
+from ..workbench.call_settings import settings_of
+from ..workbench.corpus import check_corpus
+from ..workbench.corpus_changes import VerdictChange, changes
+from ..workbench.corpus_table import (
     CRASHED,
     CorpusRow,
     Results,
@@ -27,11 +29,9 @@ from ..checking.corpus_table import (
     summary_path,
     write_summary,
 )
-from ..checking.shelf import Shelved, find_protocols
-from ..checking.shelf import sample as drawn
-from ..checking.side_by_side import processors
-from ..errors import ConfigurationError
-from ..vocabulary import counted
+from ..workbench.shelf import Shelved, find_protocols
+from ..workbench.shelf import sample as drawn
+from ..workbench.side_by_side import processors
 from .engines import InstallEngines, install_for_files
 from .exit_codes import BROKEN, CLEAN, FINDINGS
 from .options import Labware, Rules, Timeout, one_of

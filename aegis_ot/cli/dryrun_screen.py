@@ -14,7 +14,6 @@ from rich.progress import Progress as Bar
 from rich.table import Table
 from rich.text import Text
 
-from ..checking.playback import playback_of
 from ..dryrun import DryRun, DryRunProgress, DryRunSettings, WellRow, dry_run
 from ..preflight import Interpretation, load_rules
 from ..preflight.check_protocol import summary
@@ -23,6 +22,7 @@ from ..reports.played import Mark, mark_of, played
 from ..reports.run_html import run_report_html
 from ..sidecar import Judged, make_analyser
 from ..vocabulary import Outcome, Site, counted
+from ..workbench.playback import playback_of
 from .exit_codes import BROKEN, CLEAN, FINDINGS
 from .printing import PlainConsole
 from .progress import progress_bar

@@ -8,8 +8,8 @@ from typing import Annotated
 
 import typer
 
-from ..checking.given import seconds_of
 from ..settings import load_settings
+from ..workbench.given import seconds_of
 from .options import Timeout, one_of
 
 app = typer.Typer()

@@ -24,7 +24,7 @@ InstallEngines = Annotated[
 @engines.command("list")
 def list_() -> None:
     """Say which engines are here, which robots and apiLevels they take, and what lacks."""
-    from ..checking.engines import RELEASES, Engine, engines_folder, here, installed
+    from ..workbench.engines import RELEASES, Engine, engines_folder, here, installed
 
     own, made = here(), installed()
     for engine in [*([own] if own else []), *made]:
@@ -51,8 +51,8 @@ def install(
     ] = None,
 ) -> None:
     """Make engines: each an environment of its own, in the user's data folder."""
-    from ..checking.engine_making import install as make
-    from ..checking.engines import RELEASES, here, installed
+    from ..workbench.engine_making import install as make
+    from ..workbench.engines import RELEASES, here, installed
 
     wanted = list(versions or ())
     if protocols:
@@ -70,7 +70,7 @@ def remove(
     versions: Annotated[list[str], typer.Argument(help="As `aegis-ot engines list` shows them.")],
 ) -> None:
     """Remove engines from the user's data folder."""
-    from ..checking.engine_making import remove as take_away
+    from ..workbench.engine_making import remove as take_away
 
     for version in versions:
         take_away(version)
@@ -79,10 +79,10 @@ def remove(
 
 def install_for_files(places: Sequence[Path]) -> None:
     """Make the engines that protocols lack, and say so."""
-    from ..checking.documents import need_of_document
-    from ..checking.engine_making import install_for
-    from ..checking.engines import need_of
-    from ..checking.shelf import protocols_named
+    from ..workbench.documents import need_of_document
+    from ..workbench.engine_making import install_for
+    from ..workbench.engines import need_of
+    from ..workbench.shelf import protocols_named
 
     files = protocols_named(places)
     needs = {need_of_document(path) or need_of(_text(path)) for path in files}

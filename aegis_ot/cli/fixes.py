@@ -8,11 +8,11 @@ from pathlib import Path
 
 import typer
 
-from ..checking import CheckedProtocol, CheckRun, Project, check_projects
-from ..checking.files import read_protocol
-from ..checking.fixing import Fixed, fix
-from ..checking.side_by_side import RehearserPool
 from ..errors import AegisError, ConfigurationError
+from ..workbench import CheckedProtocol, CheckRun, Project, check_projects
+from ..workbench.files import read_protocol
+from ..workbench.fixing import Fixed, fix
+from ..workbench.side_by_side import RehearserPool
 from .plain_text import plain
 
 _BOM = b"\xef\xbb\xbf"

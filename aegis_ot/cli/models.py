@@ -12,7 +12,7 @@ from ..errors import ConfigurationError
 from ..vocabulary.opinions import MODEL_FORMS
 
 if TYPE_CHECKING:
-    from ..reasoning import Backend
+    from ..llm import Backend
 
 ModelName = Annotated[
     str | None,
@@ -49,7 +49,7 @@ def backend_of(
     """
     if not (model or record or configured or os.environ.get("AEGIS_OT_MODEL")):
         return None
-    from ..reasoning import (
+    from ..llm import (
         make_backend,
         model_from_environment,
         project_model,

@@ -7,8 +7,8 @@ from typing import Annotated, Any
 
 import typer
 
-from ..checking.files import NO_GUARD
 from ..errors import ConfigurationError, ProtocolRejected
+from ..workbench.files import NO_GUARD
 from .exit_codes import FINDINGS
 from .robots import Robot
 

@@ -9,8 +9,8 @@ from typing import Annotated
 
 import typer
 
-from ..checking.given import DEFAULT_TIMEOUT_S
 from ..errors import ConfigurationError
+from ..workbench.given import DEFAULT_TIMEOUT_S
 
 _JUDGING = "How to judge"
 _VALUES = "What the protocol gets"

@@ -66,8 +66,8 @@ def rest(
     """
     from ..account.plain_protocol import plan_of, rehearsed
     from ..account.rest import rest_of
-    from ..checking.files import read_labware, read_values
     from ..sidecar.overview import run_overview
+    from ..workbench.files import read_labware, read_values
 
     if protocol is None and (write or again):
         raise ConfigurationError("--write needs the run's protocol: aegis-ot rest RUN PROTOCOL.")
@@ -112,8 +112,8 @@ def _write(
     """Write the protocol, if it can be, and Layer 1 has no error in it."""
     from ..account.finishing import finishing_protocol
     from ..account.plain_protocol import NotPlain
-    from ..checking.api import checked_protocol
     from ..vocabulary import VerdictWord
+    from ..workbench.api import checked_protocol
 
     try:
         text = finishing_protocol(recording, left, again, fresh_tips)
@@ -140,9 +140,9 @@ def _block(left: Rest, protocol: Path | None) -> str:
     text = block_of(left)
     if protocol is None:
         return text
-    from ..checking.api import checked_protocol
-    from ..checking.roles_template import roles_template
     from ..preflight import load_rules
+    from ..workbench.api import checked_protocol
+    from ..workbench.roles_template import roles_template
 
     try:
         return roles_template(checked_protocol(protocol), load_rules()) + "\n" + text

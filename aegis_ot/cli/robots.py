@@ -65,8 +65,8 @@ def run(
     report: Annotated[Path | None, typer.Option(help="Write a JSON report here.")] = None,
 ) -> None:
     """Run a protocol on a robot: upload, analysis, Layer 1, start, verdicts, report."""
-    from ..checking.files import labware_files, read_csv_paths, read_values
     from ..robot.preparing import Inputs
+    from ..workbench.files import labware_files, read_csv_paths, read_values
 
     if not protocol.is_file():
         raise ConfigurationError(f"There is no protocol {protocol}.")
@@ -241,13 +241,13 @@ def _how_to_bring(module: str, protocol: Path) -> str:
 
 def _fails_here(protocol: Path, labware: Sequence[Path], inputs: Inputs, version: str) -> bool:
     """Layer 1 with an ``opentrons`` that fits, the robot's own version first."""
-    from ..checking.engines import EngineMissing, engine_for, need_of
-    from ..checking.rehearser import Rehearser, TaskFailed
-    from ..checking.tasks import TimedCheck
     from ..dryrun import read_script
     from ..errors import RehearsalError
     from ..preflight import Options
     from ..preflight.check_protocol import errors_of, rejection, summary
+    from ..workbench.engines import EngineMissing, engine_for, need_of
+    from ..workbench.rehearser import Rehearser, TaskFailed
+    from ..workbench.tasks import TimedCheck
 
     files = {name: str(path) for name, path in inputs.files.items()}
     script = read_script(protocol, labware)

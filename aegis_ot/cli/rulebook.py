@@ -8,18 +8,18 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ..checking.given import known_rule, split
 from ..errors import ConfigurationError
 from ..preflight.rule_set import load_rules, shipped_rules
 from ..reports.rule_text import rule_list, rule_text
 from ..vocabulary import counted
+from ..workbench.given import known_rule, split
 from .exit_codes import CLEAN, FINDINGS
 from .options import one_of
 from .paths import write_text
 
 if TYPE_CHECKING:
-    from ..checking.rule_examples import ExampleResult
     from ..preflight import RuleSet
+    from ..workbench.rule_examples import ExampleResult
 
 RulesOption = Annotated[list[Path] | None, typer.Option(help="File or folder of further rules.")]
 
@@ -79,9 +79,9 @@ def run_rule_examples(
 
     Exit codes: 0 all as promised, 1 some are not, 2 a rule file is wrong.
     """
-    from ..checking import Rehearser, TaskFailed
-    from ..checking.rule_examples import ExampleResult
-    from ..checking.tasks import RunExamples
+    from ..workbench import Rehearser, TaskFailed
+    from ..workbench.rule_examples import ExampleResult
+    from ..workbench.tasks import RunExamples
 
     given = [*([path] if path is not None else []), *(rules or ())]
     rule_set = _rule_set(given)

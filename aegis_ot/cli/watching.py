@@ -9,9 +9,9 @@ from pathlib import Path
 
 import typer
 
-from ..checking.reads import signatures
-from ..checking.surroundings import NO_SOURCES
 from ..errors import AegisError
+from ..workbench.reads import signatures
+from ..workbench.surroundings import NO_SOURCES
 from .plain_text import echo
 
 _LOOK_S = 0.3

@@ -18,11 +18,6 @@ from pydantic import SecretStr
 from ..account.overview import EndEntry, RunOverview
 from ..adapters.opentrons.instrumentation import Operation
 from ..adapters.opentrons.rehearsal import Recording, Script, play
-from ..checking.engines import EngineMissing, engine_for, need_of
-from ..checking.guard_arguments import guard_arguments
-from ..checking.playing import Planned, PlanRun, PlayGuarded, ending_of
-from ..checking.problems import problem_of
-from ..checking.rehearser import Rehearser, TaskFailed
 from ..errors import ConfigurationError, RehearsalError
 from ..guard import guard
 from ..guarding import AHEAD
@@ -35,6 +30,11 @@ from ..sidecar.config import CascadeSettings
 from ..simulation import SessionParameters, SimulatedCamera
 from ..vision.camera import Frame
 from ..vocabulary import Keyframe
+from ..workbench.engines import EngineMissing, engine_for, need_of
+from ..workbench.guard_arguments import guard_arguments
+from ..workbench.playing import Planned, PlanRun, PlayGuarded, ending_of
+from ..workbench.problems import problem_of
+from ..workbench.rehearser import Rehearser, TaskFailed
 from .robot import HeardRobot, touched_after
 from .summary import DryRun, rows_of, unproven
 from .watched_page import PageOperator

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from ..adapters.opentrons.rehearsal import Script
-from ..checking.files import read_labware, read_protocol, read_values
 from ..errors import ConfigurationError, RehearsalError
+from ..workbench.files import read_labware, read_protocol, read_values
 
 
 def read_script(path: Path, labware: Sequence[Path] = (), parameters: Sequence[str] = ()) -> Script:

@@ -13,12 +13,12 @@ from pygls.uris import to_fs_path
 from pygls.workspace import TextDocument
 
 from .. import __version__
-from ..checking import CheckedProtocol
-from ..checking.api import checked_protocol
-from ..checking.mending import Edit, Mend, mends_of
-from ..checking.shelf import is_protocol
 from ..errors import AegisError
 from ..vocabulary import Severity
+from ..workbench import CheckedProtocol
+from ..workbench.api import checked_protocol
+from ..workbench.mending import Edit, Mend, mends_of
+from ..workbench.shelf import is_protocol
 
 SOURCE = "aegis-ot"
 

@@ -16,15 +16,15 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from ..checking.api import checked_protocol
-from ..checking.files import read_protocol
-from ..checking.given import known_rule
-from ..checking.mending import applied, mends_of
 from ..errors import ConfigurationError
 from ..preflight import load_rules
 from ..reports.check_json import protocol_values
 from ..reports.rule_text import rule_text
 from ..vocabulary import VerdictWord
+from ..workbench.api import checked_protocol
+from ..workbench.files import read_protocol
+from ..workbench.given import known_rule
+from ..workbench.mending import applied, mends_of
 from .stdio import Tool
 
 INSTRUCTIONS = (

@@ -11,12 +11,12 @@ from typing import Any
 from academy.agent import Agent, action
 
 from ..adapters.opentrons.rehearsal import Script, record
-from ..checking.guard_arguments import guard_arguments
 from ..errors import ConfigurationError, RunAborted
 from ..preflight.check_protocol import check_recording, errors_of, rejection
 from ..preflight.judging import Report
 from ..runtime.descriptions import about_layer1
 from ..settings import load_settings
+from ..workbench.guard_arguments import guard_arguments
 from .config import RobotConfig
 from .jobs import Job
 from .remote import STATUS_WAIT_S, pack_error

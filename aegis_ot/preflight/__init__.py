@@ -6,7 +6,7 @@ Each step is a room of its own, and imports run down this list only (a contract 
     asking      the robot asks the sidecar's model
     live_judging  the run beside its rehearsal
     opinion     what a model gets to know, what it answers, what of that counts
-    checking    a protocol, or what a guard recorded, to a report
+    check_protocol  a protocol, or what a guard recorded, to a report
     judging     a recording to a reading and a verdict: cases, findings, waivers
     rule_set    the rules in force: the shipped ones, and a laboratory's own
     checks      predicates over trace and roles, of which rules are made
@@ -15,7 +15,8 @@ Each step is a room of its own, and imports run down this list only (a contract 
     trace       the recording read as tips, wells and liquids
     source      what the protocol's text says as Python
     rules       what a rule file may say
-    rehearsal   the protocol run in the simulator, and recorded
+
+The recording itself is made in :mod:`aegis_ot.adapters.opentrons.rehearsal`.
 """
 
 from typing import TYPE_CHECKING
@@ -31,9 +32,9 @@ if TYPE_CHECKING:
 __getattr__ = door(
     __name__,
     {
+        ".adapters.opentrons.rehearsal": "Script record",
         "check_protocol": "check_script",
         "judging": "Options Interpretation Report judge",
-        "rehearsal": "Script record",
         "rule_set": "RuleSet load_rules",
     },
 )

@@ -8,11 +8,11 @@ from pathlib import Path
 from pydantic import SecretStr
 
 from ..adapters.opentrons.rehearsal import Script, play
-from ..checking.engines import engine_for, need_of
 from ..errors import ConfigurationError
 from ..sidecar import Analyser, SidecarConfig, make_analyser, running_sidecar
 from ..sidecar.config import CascadeSettings
 from ..simulation import SessionParameters, SimulatedCamera
+from ..workbench.engines import engine_for, need_of
 from .plan import QualificationPlan
 from .protocol import protocol_text
 

@@ -7,7 +7,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from ..checking import CheckRun
+    from ..workbench import CheckRun
 
 FORMATS = ("text", "line", "json", "sarif", "github", "junit", "html")
 """Of a report on checked protocols."""

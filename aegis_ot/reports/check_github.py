@@ -7,8 +7,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ..checking import CheckedProtocol, CheckRun
 from ..vocabulary import Severity
+from ..workbench import CheckedProtocol, CheckRun
 from .wording import by_model, file_line, fit_to_print, listed, location, summary_line
 
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from ..checking import CheckedProtocol, CheckRun
-from ..checking.playback import marks_of
 from ..vocabulary import Finding
+from ..workbench import CheckedProtocol, CheckRun
+from ..workbench.playback import marks_of
 from .html_page import Filters, html_page
 from .played import mark_of, played
 from .wording import (

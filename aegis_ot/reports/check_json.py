@@ -29,8 +29,8 @@ import json
 from collections import Counter
 from typing import Any
 
-from ..checking import CheckedProtocol, CheckRun, Exploration
 from ..vocabulary import Finding
+from ..workbench import CheckedProtocol, CheckRun, Exploration
 
 SCHEMA_VERSION = 2
 

@@ -7,10 +7,10 @@ import xml.etree.ElementTree as ElementTree
 from collections.abc import Iterator
 from xml.etree.ElementTree import Element, SubElement
 
-from ..checking import CheckedProtocol, CheckRun
 from ..preflight.judging import MODEL
 from ..preflight.rules import RuleSpec
 from ..vocabulary import Finding
+from ..workbench import CheckedProtocol, CheckRun
 from .wording import by_model, location
 
 # What XML 1.0 cannot hold, even escaped.

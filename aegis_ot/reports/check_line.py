@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ..checking import CheckedProtocol, CheckRun
 from ..vocabulary import no_commands
+from ..workbench import CheckedProtocol, CheckRun
 from .wording import by_model, fit_to_print, location, summary_line
 
 

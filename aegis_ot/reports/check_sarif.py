@@ -15,10 +15,10 @@ from typing import Any
 from urllib.parse import quote
 
 from .._version import DOCUMENTATION
-from ..checking import CheckedProtocol, CheckRun
 from ..preflight import load_rules
 from ..preflight.rules import Family, RuleSpec
 from ..vocabulary import Finding, Severity, Site
+from ..workbench import CheckedProtocol, CheckRun
 from .wording import by_model, file_line, place_in_file, site_label, sites_by_line
 
 SCHEMA = (

@@ -10,9 +10,9 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from rich.cells import cell_len
 
-from ..checking import CheckedProtocol, CheckRun, Exploration, Problem
 from ..preflight.judging import RoleEvidence
 from ..vocabulary import Finding, Severity, VerdictWord, counted, no_commands
+from ..workbench import CheckedProtocol, CheckRun, Exploration, Problem
 from .wording import (
     by_model,
     fit_to_print,

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 
-from ..checking.playback import marks_of
 from ..vocabulary import Finding, Site
+from ..workbench.playback import marks_of
 
 
 class Mark(NamedTuple):
@@ -29,7 +29,7 @@ def played(
     """All that the page's player takes, ``None`` where there is no rehearsal to play.
 
     Args:
-        playback: See :func:`~aegis_ot.checking.playback.playback_of`.
+        playback: See :func:`~aegis_ot.workbench.playback.playback_of`.
         marks: Those that fit no step are left out: the page tells of them elsewhere.
         lines: Of the protocol; those that steps name go along.
         unit: What their numbers count.

@@ -5,10 +5,10 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Iterator
 
-from ..checking.rule_example_files import examples_of
 from ..preflight.rule_set import RuleSet
 from ..preflight.rules import Example, Family, RuleSpec
 from ..vocabulary import counted
+from ..workbench.rule_example_files import examples_of
 
 _WIDTH = 100
 

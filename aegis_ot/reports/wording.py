@@ -6,8 +6,8 @@ import dataclasses
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
-from ..checking import CheckedProtocol, CheckRun
 from ..vocabulary import Finding, Severity, Site, VerdictWord, WellRef, counted, printable
+from ..workbench import CheckedProtocol, CheckRun
 
 
 def fit_to_print(checked: CheckedProtocol) -> CheckedProtocol:

@@ -9,10 +9,10 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any, TypeVar
 
 from ..adapters.opentrons.instrumentation import PipetteInfo
-from ..checking.nozzles import Layout, under
 from ..errors import RobotError, RobotRefused, RobotUnreachable
 from ..vocabulary import WellRef
 from ..vocabulary.pipette_names import channels_of, largest_volume
+from ..workbench.nozzles import Layout, under
 from .client import RobotClient
 from .following import PATIENCE_S
 from .shapes import Labware, RunSnapshot

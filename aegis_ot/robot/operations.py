@@ -16,9 +16,9 @@ from ..adapters.opentrons.instrumentation import (
     OperationKind,
     PipetteInfo,
 )
-from ..checking.commands import KINDS
-from ..checking.nozzles import Layout, layout_of, whole_head
 from ..vocabulary import WellRef
+from ..workbench.commands import KINDS
+from ..workbench.nozzles import Layout, layout_of, whole_head
 from .deck import Deck
 from .shapes import Command
 

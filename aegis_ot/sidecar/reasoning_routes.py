@@ -14,8 +14,8 @@ from fastapi import APIRouter, Query, Request
 from starlette.concurrency import run_in_threadpool
 
 from ..errors import ConfigurationError
-from ..reasoning import Backend, Opinions, load_prices, make_backend
-from ..reasoning.gate_tiers import Budget, VlmTiers
+from ..llm import Backend, Opinions, load_prices, make_backend
+from ..llm.gate_tiers import Budget, VlmTiers
 from ..vision.gates import ConfirmingGate
 from ..vocabulary import Dossier, Opinion, from_json, to_json
 from .bodies import read_body

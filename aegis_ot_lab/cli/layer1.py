@@ -9,17 +9,17 @@ from typing import Annotated
 
 import typer
 
-from aegis_ot.checking import Asking, CheckSettings
-from aegis_ot.checking.files import read_labware
-from aegis_ot.checking.given import split
 from aegis_ot.cli.counting import Counting
 from aegis_ot.cli.exit_codes import BROKEN, CLEAN
 from aegis_ot.cli.models import ModelNames, RecordFolder, backend_of
 from aegis_ot.cli.options import Labware, Rules, one_of
 from aegis_ot.cli.paths import writable_folder, write_text
 from aegis_ot.errors import ConfigurationError
+from aegis_ot.llm import AskingConfiguration, load_prices
 from aegis_ot.preflight import load_rules
-from aegis_ot.reasoning import AskingConfiguration, load_prices
+from aegis_ot.workbench import Asking, CheckSettings
+from aegis_ot.workbench.files import read_labware
+from aegis_ot.workbench.given import split
 
 from ..evaluation.layer1 import (
     Checking,

@@ -10,16 +10,16 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from aegis_ot.checking.given import split
 from aegis_ot.cli.exit_codes import BROKEN, CLEAN
 from aegis_ot.cli.models import ModelName, RecordFolder, backend_of
 from aegis_ot.cli.options import one_of
 from aegis_ot.cli.paths import open_dataset, tip_finder, writable_folder, write_text
 from aegis_ot.errors import ConfigurationError
 from aegis_ot.vocabulary import counted
+from aegis_ot.workbench.given import split
 
 if TYPE_CHECKING:
-    from aegis_ot.reasoning import Backend
+    from aegis_ot.llm import Backend
 
     from ..evaluation.layer2 import Layer2Result
 
@@ -98,7 +98,7 @@ def layer2(
     backend = _model_of(protocol, model, record)
     gates = []
     if backend is not None:
-        from aegis_ot.reasoning.vlm import VlmGate
+        from aegis_ot.llm.vlm import VlmGate
 
         gates = [VlmGate(backend)]
     if figures is not None:
@@ -162,7 +162,7 @@ def _answered(backend: Backend | None, results: Sequence[Layer2Result]) -> int:
     kind, _, file = ("" if backend is None else backend.name).partition(":")
     if kind != "export":
         return BROKEN
-    from aegis_ot.reasoning.backends.exporting import read_requests
+    from aegis_ot.llm.backends.exporting import read_requests
 
     written = counted(len(read_requests(Path(file))), "question")
     typer.echo(f"{written} in {file}; the figures above are without a model.")

@@ -8,9 +8,6 @@ from typing import Annotated
 
 import typer
 
-from aegis_ot.checking import Asking, check_files, configurations_of
-from aegis_ot.checking.call_settings import settings_of
-from aegis_ot.checking.given import split
 from aegis_ot.cli.exit_codes import BROKEN
 from aegis_ot.cli.options import (
     Assay,
@@ -25,8 +22,11 @@ from aegis_ot.cli.options import (
     one_of,
     refuse_to_overwrite,
 )
-from aegis_ot.reasoning import AskingConfiguration, ScriptedBackend, request_in
+from aegis_ot.llm import AskingConfiguration, ScriptedBackend, request_in
 from aegis_ot.vocabulary import counted
+from aegis_ot.workbench import Asking, check_files, configurations_of
+from aegis_ot.workbench.call_settings import settings_of
+from aegis_ot.workbench.given import split
 
 from ..batch import export_requests, import_answers
 

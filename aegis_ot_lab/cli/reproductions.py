@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from aegis_ot.checking.given import split
 from aegis_ot.cli.exit_codes import BROKEN, CLEAN
 from aegis_ot.cli.models import ModelNames, RecordFolder, backend_of
 from aegis_ot.cli.options import one_of
 from aegis_ot.cli.paths import open_dataset, writable_folder, write_text
+from aegis_ot.workbench.given import split
 
 if TYPE_CHECKING:
     from ..reproduction import Entry

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from aegis_ot.reasoning import Backend
+from aegis_ot.llm import Backend
 from aegis_ot.vision.gates import GateInput
 from aegis_ot.vocabulary import Outcome as Word
 from aegis_ot.vocabulary import Route
@@ -90,7 +90,7 @@ def _table(title: str, results: Sequence[Layer2Result], told: dict[str, Any]) ->
 
 def _model_alone(context: Context, backend: Backend, tips: FoundTips) -> dict[str, Any] | str:
     """A vision model that sees each well by itself; why not, if it gives no answer."""
-    from aegis_ot.reasoning.vlm import VlmGate
+    from aegis_ot.llm.vlm import VlmGate
 
     gate = VlmGate(backend)
     wells = [sample for sample in tips.samples if sample.failure_type != "no_tip"]

@@ -24,7 +24,7 @@ from aegis_ot.worldmodel.tips import FoundTips, find_tips
 from ..drawing import write_dataset
 
 if TYPE_CHECKING:
-    from aegis_ot.reasoning import Backend
+    from aegis_ot.llm import Backend
 
 SIZE = (960, 540)
 """Of simulated frames of drawn cameras, px: that of the rendered sets."""

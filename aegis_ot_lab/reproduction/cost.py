@@ -6,7 +6,7 @@ import statistics
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from aegis_ot.reasoning import TokenUsage, load_prices
+from aegis_ot.llm import TokenUsage, load_prices
 
 from ..evaluation.layer1.bill import cost_of
 from .context import Context

@@ -10,7 +10,7 @@ from typing import Any
 
 from aegis_ot.adapters.opentrons.rehearsal import Script
 from aegis_ot.dryrun import TRUSTING, DryRunSettings, dry_run
-from aegis_ot.reasoning import Backend, Reply, Request, State, load_prices, request_size
+from aegis_ot.llm import Backend, Reply, Request, State, load_prices, request_size
 from aegis_ot.sidecar import Analyser, RunAnalysis, make_analyser
 from aegis_ot.sidecar.analysers import make_detector
 from aegis_ot.sidecar.config import CascadeSettings
@@ -118,7 +118,7 @@ def analysers(
         points: Those without a model.
         asking: Those with one, from :func:`counted`.
     """
-    from aegis_ot.reasoning.gate_tiers import VlmTiers
+    from aegis_ot.llm.gate_tiers import VlmTiers
 
     detector = _Remembering(make_detector())
     made = {name: make_analyser(one, detector=detector) for name, one in points.items()}

@@ -7,9 +7,9 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from aegis_ot.checking import Asking, CheckSettings
+from aegis_ot.llm import AskingConfiguration, Backend, TokenUsage
 from aegis_ot.preflight import RuleSet, load_rules
-from aegis_ot.reasoning import AskingConfiguration, Backend, TokenUsage
+from aegis_ot.workbench import Asking, CheckSettings
 
 from ..evaluation.layer1 import (
     Checking,

@@ -11,8 +11,8 @@ import pytest
 
 from aegis_ot.cli.models import backend_of
 
-from ..reasoning.samples import CONTAMINATED, SILENT, answer, finding
-from ..reasoning.wire_server import (
+from ..llm.samples import CONTAMINATED, SILENT, answer, finding
+from ..llm.wire_server import (
     Answer,
     WireServer,
     anthropic_error,
@@ -89,7 +89,7 @@ ENDS: list[tuple[str, Callable[[str], str], Answer, str]] = [
     ("schema", _openai, Answer(body=openai_completion('{"family": 3}')), "invalid"),
     ("silence", _openai, Answer(hang=True), "timeout"),
 ]
-"""One end of each kind; tests/reasoning/test_wires.py has them all."""
+"""One end of each kind; tests/llm/test_wires.py has them all."""
 
 
 @pytest.mark.parametrize(("name", "model", "gives", "state"), ENDS, ids=[e[0] for e in ENDS])

@@ -16,9 +16,9 @@ import pytest
 
 pytest.importorskip("tomllib")
 
-from aegis_ot.checking import engine_making
-from aegis_ot.checking.engine_making import install, remove
 from aegis_ot.errors import ConfigurationError
+from aegis_ot.workbench import engine_making
+from aegis_ot.workbench.engine_making import install, remove
 
 from .environments import MATRIX
 from .test_extras import Environment

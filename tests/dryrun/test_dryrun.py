@@ -8,7 +8,6 @@ from dataclasses import replace
 import pytest
 
 from aegis_ot.adapters.opentrons.rehearsal import Script
-from aegis_ot.checking.engines import Engine
 from aegis_ot.dryrun import TRUSTING, DryRunSettings, dry_run
 from aegis_ot.errors import ConfigurationError, RehearsalError
 from aegis_ot.reports.run_html import run_report_html
@@ -16,6 +15,7 @@ from aegis_ot.sidecar import make_analyser
 from aegis_ot.sidecar.overview import runs_overview
 from aegis_ot.sidecar.store import Store
 from aegis_ot.vocabulary import KeyframeKind, Outcome, Route
+from aegis_ot.workbench.engines import Engine
 
 TEXT = """
 metadata = {"apiLevel": "2.16"}

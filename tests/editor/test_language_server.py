@@ -15,8 +15,8 @@ pytest.importorskip("pygls", reason="pygls is not installed: extra editor")
 from lsprotocol import types
 from pygls.lsp.client import LanguageClient
 
-from tests.checking.test_fixing import UNNAMED
 from tests.cli.test_check_command import BAD_LINE, protocol
+from tests.workbench.test_fixing import UNNAMED
 
 _PATIENCE_S = 200.0
 

@@ -13,11 +13,11 @@ import pytest
 from syrupy.assertion import SnapshotAssertion
 
 from aegis_ot.adapters.opentrons.rehearsal import Script
-from aegis_ot.checking.guard_arguments import guard_arguments
-from aegis_ot.checking.run import options_for
 from aegis_ot.preflight import Options, Report, check_script
 from aegis_ot.preflight.source import source_lines
 from aegis_ot.vocabulary import Finding
+from aegis_ot.workbench.guard_arguments import guard_arguments
+from aegis_ot.workbench.run import options_for
 
 FILES = sorted((Path(__file__).parent / "protocols").glob("*.py"))
 SHOWN = 12

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from aegis_ot.checking import Broken, CheckedProtocol, CheckRun, Exploration, Problem
 from aegis_ot.preflight import Report, RuleSet
 from aegis_ot.preflight.judging import RoleEvidence, Waived, Waiver
 from aegis_ot.preflight.roles import Inference
 from aegis_ot.preflight.rules import Common, Example, Examples, Family, RoleSpec, RuleSpec
 from aegis_ot.vocabulary import Finding, Remark, Severity, Site, Undecided, VerdictWord, WellRef
+from aegis_ot.workbench import Broken, CheckedProtocol, CheckRun, Exploration, Problem
 
 
 def rule(name: str, title: str, severity: str = "error", scope: str = "family") -> RuleSpec:

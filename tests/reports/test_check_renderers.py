@@ -13,10 +13,9 @@ import pytest
 from syrupy.assertion import SnapshotAssertion
 
 from aegis_ot._version import DOCUMENTATION
-from aegis_ot.checking import CheckedProtocol, CheckRun
+from aegis_ot.llm import AskingConfiguration, Judgement, Reply, State, TokenUsage
 from aegis_ot.preflight import load_rules
 from aegis_ot.preflight.opinion import no_answer
-from aegis_ot.reasoning import AskingConfiguration, Judgement, Reply, State, TokenUsage
 from aegis_ot.reports import FORMATS, renderer
 from aegis_ot.reports.check_github import check_github
 from aegis_ot.reports.check_html import check_html
@@ -25,6 +24,7 @@ from aegis_ot.reports.check_junit import check_junit
 from aegis_ot.reports.check_sarif import check_sarif
 from aegis_ot.reports.check_text import check_text
 from aegis_ot.vocabulary import Finding, Opinion, Severity, Site, Undecided
+from aegis_ot.workbench import CheckedProtocol, CheckRun
 
 from .sample import CARRY, DATABASE, LINES, RUN, report, well
 from .sarif_constraints import SARIF

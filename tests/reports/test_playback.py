@@ -12,11 +12,11 @@ import pytest
 
 from aegis_ot.adapters.opentrons.instrumentation import LabwareInfo, WellInfo
 from aegis_ot.adapters.opentrons.rehearsal import Script
-from aegis_ot.checking import CheckedProtocol, CheckRun
-from aegis_ot.checking.playback import marks_of, playback_of
 from aegis_ot.preflight import Interpretation, Options, judge, load_rules, record
 from aegis_ot.reports.check_html import check_html
 from aegis_ot.vocabulary import Site, WellRef
+from aegis_ot.workbench import CheckedProtocol, CheckRun
+from aegis_ot.workbench.playback import marks_of, playback_of
 from tests.sidecar.browser import CHROMIUM, Browser, chromium
 
 NASTY = "</script><script>window.hurt = 1</script><img src=x onerror='window.hurt = 1'>"
@@ -134,7 +134,7 @@ def test_where_nothing_tells_which_time_is_meant_no_step_is_marked() -> None:
 
 def test_a_labware_without_geometry_is_drawn_without_wells() -> None:
     """Wells of no size, and labware of no wells, are data that real definitions hold."""
-    from aegis_ot.checking.playback import _Playback
+    from aegis_ot.workbench.playback import _Playback
 
     bare = LabwareInfo("a", "x", "X", "", "1", False, False, wells={"A1": WellInfo(0, 0)})
     assert _Playback({"a": bare}).values["shapes"] == [{"wells": [["A1", 0, 0, 0, 0, 0, 0]]}]

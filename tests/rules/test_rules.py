@@ -8,12 +8,12 @@ from pathlib import Path
 import jsonschema
 import pytest
 
-from aegis_ot.checking.rule_examples import run_examples
 from aegis_ot.errors import RuleError
 from aegis_ot.preflight import load_rules
 from aegis_ot.preflight.rule_set import load_family, read_shipped, shipped_rules
 from aegis_ot.preflight.rules import Family
 from aegis_ot.reports.rule_schema import family_schema, schema_text
+from aegis_ot.workbench.rule_examples import run_examples
 from scripts.compile_rules import MODULE, module_text
 
 SIXTH = Path(__file__).parents[2] / "examples" / "rules" / "luciferase.json"

@@ -1,7 +1,7 @@
 """Gates: the second look that confirms or rejects a flagged well.
 
 Each stands behind :class:`ConfirmingGate`: the volumes that were measured, a vision model
-(``aegis_ot.reasoning.vlm``), the operator. :class:`Gates` asks them in turn.
+(``aegis_ot.llm.vlm``), the operator. :class:`Gates` asks them in turn.
 """
 
 from .case import ALARM_P, ConfirmingGate, Cost, GateDecision, GateInput

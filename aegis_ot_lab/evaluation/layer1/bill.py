@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from aegis_ot.reasoning import PriceTable, Reply, TokenUsage
+from aegis_ot.llm import PriceTable, Reply, TokenUsage
 
 
 def cost_of(reply: Reply | None, prices: PriceTable) -> float | None:

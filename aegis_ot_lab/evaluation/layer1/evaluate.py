@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from aegis_ot.errors import DatasetError
-from aegis_ot.reasoning import PriceTable, TokenUsage, load_prices
+from aegis_ot.llm import PriceTable, TokenUsage, load_prices
 from aegis_ot.vocabulary import Finding
 
 from .bill import bill_of, cost_of

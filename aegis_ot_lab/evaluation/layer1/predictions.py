@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol
 
-from aegis_ot.checking import CheckedProtocol, CheckSettings, check_files
+from aegis_ot.llm import Reply
 from aegis_ot.preflight import RuleSet
-from aegis_ot.reasoning import Reply
 from aegis_ot.vocabulary import Finding, Undecided, VerdictWord
+from aegis_ot.workbench import CheckedProtocol, CheckSettings, check_files
 
 
 @dataclass(frozen=True)
@@ -51,7 +51,7 @@ class Judge(Protocol):
 
 
 class Checking:
-    """The rules, or a model, or both: as :func:`~aegis_ot.checking.check_files` judges.
+    """The rules, or a model, or both: as :func:`~aegis_ot.workbench.check_files` judges.
 
     Args:
         settings: How to check; ``asking`` says with which model, in which configuration. Waivers

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
-from aegis_ot.reasoning import TokenUsage
+from aegis_ot.llm import TokenUsage
 from aegis_ot.vocabulary import counted
 
 from .bill import Bill

@@ -9,9 +9,9 @@ from pathlib import Path
 
 import pytest
 
-from aegis_ot.reasoning.vlm import LENSES
+from aegis_ot.llm.vlm import LENSES
 from tests.cli.commands import Command
-from tests.reasoning.wire_server import Answer, WireServer, openai_completion
+from tests.llm.wire_server import Answer, WireServer, openai_completion
 
 
 @pytest.fixture(scope="module")

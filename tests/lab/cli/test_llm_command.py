@@ -8,8 +8,8 @@ from pathlib import Path
 from typer.testing import CliRunner
 
 from aegis_ot.cli.app import app
-from aegis_ot.reasoning import ReplayBackend, judge_in
-from tests.reasoning.samples import CONTAMINATED, SILENT, answer, examined
+from aegis_ot.llm import ReplayBackend, judge_in
+from tests.llm.samples import CONTAMINATED, SILENT, answer, examined
 
 runner = CliRunner()
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from aegis_ot.reasoning import ScriptedBackend
+from aegis_ot.llm import ScriptedBackend
 from aegis_ot.vision.models import SHIPPED
 from aegis_ot.vision.reach import wilson
 from aegis_ot_lab.drawing import write_dataset

@@ -189,8 +189,8 @@ def test_a_judge_that_skips_a_protocol_is_refused(tmp_path: Path) -> None:
 
 
 def test_the_rules_judge_a_real_folder() -> None:
-    from aegis_ot.checking import CheckSettings
     from aegis_ot.preflight import load_rules
+    from aegis_ot.workbench import CheckSettings
 
     rule_set = load_rules()
     benchmark = Path(__file__).parents[4] / "examples" / "benchmark"
