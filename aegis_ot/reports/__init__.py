@@ -4,13 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from importlib import import_module
+from pkgutil import iter_modules
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from ..workbench import CheckRun
 
-FORMATS = ("text", "line", "json", "sarif", "github", "junit", "html")
-"""Of a report on checked protocols."""
+FORMATS = tuple(
+    module.name.removeprefix("check_")
+    for module in iter_modules(__path__)
+    if module.name.startswith("check_")
+)
+"""Of a report on checked protocols: each is a module ``check_NAME`` of this room."""
 
 SHOW_ROLES = ("text", "json", "html")
 """Formats that show what the wells are taken for, where that is asked for."""

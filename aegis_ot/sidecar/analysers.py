@@ -10,7 +10,7 @@ from typing import Any
 from ..errors import ConfigurationError, ModelError
 from ..vision.calibration import PRESETS
 from ..vision.detection import load_detector
-from ..vision.gates import ConfirmingGate, OperatorGate, VolumetricGate
+from ..vision.gates import ConfirmingGate, OperatorGate, measuring_gates
 from ..vision.lab_limits import LabLimits
 from ..vision.models import SHIPPED, load_model
 from ..vision.run_analyser_factory import MonitorSettings, RunAnalyserFactory
@@ -48,7 +48,7 @@ def make_analyser(
         ModelError: A model file is missing, damaged or of another version.
     """
     cascade = cascade or CascadeSettings()
-    known: dict[str, ConfirmingGate] = {"volumetric": VolumetricGate(), **(gates or {})}
+    known: dict[str, ConfirmingGate] = measuring_gates() | dict(gates or {})
     missing = [name for name in cascade.gates if name not in known]
     if missing:
         raise ConfigurationError(

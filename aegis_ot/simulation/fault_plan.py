@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections import OrderedDict
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 from ..vocabulary import Keyframe, KeyframeKind, WellRef
-from .faults import Fault, FaultKind, parse_faults
+from .faults import Fault, held_after, parse_faults
 from .scene import TipContent
 
 
@@ -40,16 +40,9 @@ class FaultPlan:
     """Follows a run's keyframes and tells what each tip truly holds.
 
     What is drawn or delivered between two keyframes is the change of the volume that the robot
-    expects in the tip. A fault changes what comes of it:
-
-    - ``no_aspirate``: air is drawn; what is left from before stays.
-    - ``air_bubble``: that share of the volume is air, a third of the way up the column.
-    - ``overdraw``: that share more is drawn, and stays in the tip.
-    - ``partial``, ``no_dispense``: less or nothing leaves the tip. The rest stays in it, also for
-      the next wells if the tip is used again: a normal dispense pushes out the commanded volume
-      and no more. It ends when the robot reports another tip. Keyframes do not tell of blow-outs,
-      so a blow-out between two trajectories does not empty a simulated tip.
-    - ``no_tip``: no tip in view in this trajectory, and nothing drawn.
+    expects in the tip; :mod:`.faults` says what a fault makes of it. The rest of a partial
+    dispense stays in the tip, also for the next wells, until the robot reports another tip:
+    keyframes do not tell of blow-outs, so one between two trajectories does not empty it.
 
     A transient fault (``C4x1``) strikes only the first deliveries into its well: a recovery finds
     it gone.
@@ -124,48 +117,10 @@ class FaultPlan:
             faults = [f for f in self.faults if self._strikes(f, keyframe, channel)]
             faults = [f for f in faults if self._still(f, keyframe)]
             struck.update(dict.fromkeys(faults))
-            contents.append(self._replay(start, mount.changes, {f.kind: f for f in faults}))
+            acting = {fault.kind: fault for fault in faults}
+            contents.append(held_after(start, mount.changes, acting, self._film))
         mount.contents = tuple(contents)
         return PhysicalState(mount.contents, tuple(struck))
-
-    def _replay(
-        self, start: TipContent, changes: Sequence[float], faults: dict[FaultKind, Fault]
-    ) -> TipContent:
-        """A tip after a trajectory's changes, from its beginning.
-
-        Replayed as a whole each time, because a well-addressed fault may be known only from the
-        second keyframe on.
-        """
-        if FaultKind.NO_TIP in faults:
-            return TipContent(present=False)
-        content = start
-        for change in changes:
-            if change > 1e-9:
-                content = _draw(content, change, faults)
-            elif change < -1e-9:
-                content = self._deliver(content, -change, faults)
-        return content
-
-    def _deliver(
-        self, content: TipContent, wanted: float, faults: dict[FaultKind, Fault]
-    ) -> TipContent:
-        if FaultKind.NO_DISPENSE in faults or FaultKind.NO_ASPIRATE in faults:
-            # Without an aspirate the plunger only pushes out the air that it drew.
-            return content
-        if FaultKind.PARTIAL in faults:
-            wanted *= faults[FaultKind.PARTIAL].amount
-        left = content.liquid_ul - wanted
-        left = left if left > 1e-6 else 0.0
-        gone = content.liquid_ul - left
-        # What was below an enclosed bubble leaves first, and the bubble after it.
-        keeps_gap = content.gap_ul > 0 and content.gap_below_ul > gone
-        return TipContent(
-            liquid_ul=left,
-            gap_ul=content.gap_ul if keeps_gap else 0.0,
-            gap_below_ul=content.gap_below_ul - gone if keeps_gap else 0.0,
-            film_ul=content.film_ul + self._film * gone,
-            film_to_ul=max(content.film_to_ul, content.liquid_ul),
-        )
 
     def _still(self, fault: Fault, keyframe: Keyframe) -> bool:
         """Whether a transient fault still strikes the trajectory that it would strike."""
@@ -197,24 +152,6 @@ class FaultPlan:
 def _wells_of(keyframe: Keyframe) -> tuple[WellRef | None, ...]:
     """The well of each channel, as far as the robot says; else those that the channels share."""
     return keyframe.targets or keyframe.destinations
-
-
-def _draw(content: TipContent, volume: float, faults: dict[FaultKind, Fault]) -> TipContent:
-    if FaultKind.NO_ASPIRATE in faults:
-        return content
-    if FaultKind.OVERDRAW in faults:
-        volume *= 1 + faults[FaultKind.OVERDRAW].amount
-    bubble = faults.get(FaultKind.AIR_BUBBLE)
-    air = volume * bubble.amount if bubble else 0.0
-    # New liquid enters at the orifice and pushes up what was there.
-    below = 0.35 * (volume - air) if air else content.gap_below_ul + volume
-    gap = air or content.gap_ul
-    return replace(
-        content,
-        liquid_ul=content.liquid_ul + volume - air,
-        gap_ul=gap,
-        gap_below_ul=below if gap else 0.0,
-    )
 
 
 def _expected_before(keyframe: Keyframe) -> float:

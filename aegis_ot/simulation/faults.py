@@ -1,4 +1,4 @@
-"""Planted faults as a user writes them.
+"""Planted faults: as a user writes them, and what each makes of a draw and of a delivery.
 
 A fault is written ``KIND@WELL``, as the command line takes it::
 
@@ -15,12 +15,13 @@ A fault is written ``KIND@WELL``, as the command line takes it::
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from enum import Enum
 
 from ..errors import ConfigurationError
 from ..vocabulary import WellRef
+from .scene import TipContent
 
 FORMS = (
     "KIND@WELL with KIND partial:PERCENT, no_aspirate, no_dispense, air_bubble[:PERCENT], "
@@ -155,3 +156,72 @@ def _parse_where(text: str, place: str) -> Where:
     if colon and not re.fullmatch(r"\d{1,2}|[A-D][1-4]", slot):
         raise _wrong(text, f"{slot!r} is no deck slot")
     return Where(well=well, slot=slot, times=times)
+
+
+Acting = Mapping[FaultKind, Fault]
+"""The faults that strike one tip in one trajectory."""
+
+
+def held_after(
+    start: TipContent, changes: Sequence[float], acting: Acting, film: float
+) -> TipContent:
+    """What a tip holds after a trajectory's changes.
+
+    Replayed as a whole each time, because a well-addressed fault may be known only from the
+    second keyframe on.
+
+    Args:
+        start: As the trajectory found it.
+        changes: What was drawn (more than 0) and delivered (less), µL.
+        acting: The faults.
+        film: Liquid that stays on the wall, fraction of what is delivered.
+    """
+    if FaultKind.NO_TIP in acting:
+        return TipContent(present=False)
+    content = start
+    for change in changes:
+        if change > 1e-9:
+            content = _draw(content, change, acting)
+        elif change < -1e-9:
+            content = _deliver(content, -change, acting, film)
+    return content
+
+
+def _draw(content: TipContent, volume: float, acting: Acting) -> TipContent:
+    """Air instead of liquid, more than was commanded, or a bubble a third of the way up."""
+    if FaultKind.NO_ASPIRATE in acting:
+        return content
+    if FaultKind.OVERDRAW in acting:
+        volume *= 1 + acting[FaultKind.OVERDRAW].amount
+    bubble = acting.get(FaultKind.AIR_BUBBLE)
+    air = volume * bubble.amount if bubble else 0.0
+    # New liquid enters at the orifice and pushes up what was there.
+    below = 0.35 * (volume - air) if air else content.gap_below_ul + volume
+    gap = air or content.gap_ul
+    return replace(
+        content,
+        liquid_ul=content.liquid_ul + volume - air,
+        gap_ul=gap,
+        gap_below_ul=below if gap else 0.0,
+    )
+
+
+def _deliver(content: TipContent, wanted: float, acting: Acting, film: float) -> TipContent:
+    """A normal dispense pushes out the commanded volume and no more."""
+    if FaultKind.NO_DISPENSE in acting or FaultKind.NO_ASPIRATE in acting:
+        # Without an aspirate the plunger only pushes out the air that it drew.
+        return content
+    if FaultKind.PARTIAL in acting:
+        wanted *= acting[FaultKind.PARTIAL].amount
+    left = content.liquid_ul - wanted
+    left = left if left > 1e-6 else 0.0
+    gone = content.liquid_ul - left
+    # What was below an enclosed bubble leaves first, and the bubble after it.
+    keeps_gap = content.gap_ul > 0 and content.gap_below_ul > gone
+    return TipContent(
+        liquid_ul=left,
+        gap_ul=content.gap_ul if keeps_gap else 0.0,
+        gap_below_ul=content.gap_below_ul - gone if keeps_gap else 0.0,
+        film_ul=content.film_ul + film * gone,
+        film_to_ul=max(content.film_to_ul, content.liquid_ul),
+    )

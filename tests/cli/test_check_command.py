@@ -188,7 +188,7 @@ def test_a_family_of_ones_own_is_a_file(aegis: Command, tmp_path: Path) -> None:
 
 WRONG: list[tuple[list[str], str]] = [
     (["check"], "Name protocols, folders, or a run"),
-    (["check", "good.py", "--format", "xml"], "'xml' is not one of text, line, json"),
+    (["check", "good.py", "--format", "xml"], "'xml' is not one of github, html, json"),
     (["check", "good.py", "--timeout", "soon"], "--timeout"),
     (["check", "good.py", "--timeout", "0"], "greater than 0"),
     (["check", "good.py", "--timeout", "nan"], "greater than 0"),

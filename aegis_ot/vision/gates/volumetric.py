@@ -262,3 +262,6 @@ class VolumetricGate:
             return False
         tolerance = self.tolerance(reading, sample.volume_ul, gross=False)
         return tolerance <= self.limits.blind_fraction * sample.volume_ul
+
+
+make = VolumetricGate
