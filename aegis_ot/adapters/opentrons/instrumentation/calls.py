@@ -95,11 +95,7 @@ class CallReader:
         self.busy = True
         try:
             self._move_to(
-                top,
-                well_core=well_core,
-                force_direct=False,
-                minimum_z_height=None,
-                speed=None,
+                top, well_core=well_core, force_direct=False, minimum_z_height=None, speed=None
             )
         finally:
             self.busy = False

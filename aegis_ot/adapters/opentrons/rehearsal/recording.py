@@ -6,14 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
-from ..instrumentation import (
-    Event,
-    EventKind,
-    LabwareInfo,
-    NameBinding,
-    Operation,
-    OperationKind,
-)
+from ..instrumentation import Event, EventKind, LabwareInfo, NameBinding, Operation, OperationKind
 
 Record: TypeAlias = "Operation | Event"
 
