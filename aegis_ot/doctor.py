@@ -236,7 +236,7 @@ def _smallest(one: Smallest) -> Examination:
 def _language_model(config: SidecarConfig) -> Examination:
     name, chosen = "language model", config.model.name
     if chosen is None:
-        return Examination(name, "ok", "none is set: the volumetric gate and the operator decide")
+        return Examination(name, "ok", "none is set: measured volumes and the operator decide")
     try:
         model = make_backend(chosen)
     except AegisError as error:

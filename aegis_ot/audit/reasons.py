@@ -116,7 +116,7 @@ def _sentence(sign: str, well: RunWell, measured: Measures, usual: float, beside
     lacking = drawn * max(min(value, 1.0) - max(usual, 0.0), 0.0)
     said: Mapping[str, str] = {
         "retained": "The frames speak more for a column that stayed after the dispense "
-        f"({value**2:.0f} nats) than those of {beside} ({usual**2:.0f}).",
+        f"(score {value**2:.0f}) than those of {beside} ({usual**2:.0f}).",
         "short": f"In transit the column looks {_share(1 - value)} filled, in {beside} "
         f"{_share(1 - usual)}: about {_ul(lacking)} may be missing.",
         "gap": f"The column in transit has a stronger break than in {beside}: air may have been "
@@ -128,7 +128,7 @@ def _sentence(sign: str, well: RunWell, measured: Measures, usual: float, beside
         "absent": f"In transit no column of the colour that {beside} show ends near its place.",
         "faint": "From transit to after the dispense the tip changes only "
         f"{_share((1 - value) / max(1 - usual, 1e-6))} as much as in {beside}.",
-        "score": f"The tip looks unlike those of {beside}: image score {value:.1f} nats, usually "
+        "score": f"The tip looks unlike those of {beside}: image score {value:.1f}, usually "
         f"{usual:.1f}.",
     }
     return said[sign]
