@@ -210,7 +210,7 @@ class TestLive:
         with FakeSidecar() as sidecar:
             sidecar.outcomes[0] = None
             run = LiveRun(protocol(GOOD, f'sidecar="{sidecar.url}", run_id="run"', form)).start()
-            assert sidecar.asked.wait(30)
+            assert sidecar.asked.wait(60)
             run.stop()
             run.join()
             (told,) = sidecar.finished
@@ -462,7 +462,7 @@ class TestEndlessRetries:
             settings = f'sidecar="{sidecar.url}", run_id="run", on_fail="abort"'
             text = protocol(self.BODY.format(caught_by=caught_by), settings, form)
             run = LiveRun(text).start()
-            run.join(20)
+            run.join(60)
             assert [finished["outcome"] for finished in sidecar.finished] == ["aborted"]
         assert run.status == "failed"
         assert [c.commandType for c in run.commands].count("aspirate") == 1

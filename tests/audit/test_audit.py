@@ -78,7 +78,7 @@ def test_the_page_fits_a_phone_and_the_plate_leads_to_its_wells(
     page = tmp_path / "page.html"
     text = audit_html(run_overview(store, "run-1"), told, lambda n: store.frame("run-1", n))
     page.write_text(text, encoding="utf-8")
-    with chromium(tmp_path / "profile", (390, 844)) as browser:
+    with chromium((390, 844)) as browser:
         browser.open(page.as_uri())
         browser.until("document.querySelectorAll('article').length === 5")
         assert browser.run("document.querySelector('a.cell[href=\"#w2\"]').textContent") == "1"

@@ -195,7 +195,7 @@ def test_the_command_names_the_well_and_the_page_shows_it(
     assert 'aria-label="C1: contradicts the record"' in text
     assert "after; ringed: A1" in text
     if CHROMIUM is not None:
-        with chromium(tmp_path / "profile", (390, 844)) as browser:
+        with chromium((390, 844)) as browser:
             browser.open(page.as_uri())
             browser.until("document.querySelectorAll('.closeups article').length === 1")
             assert browser.run("document.documentElement.scrollWidth <= innerWidth")

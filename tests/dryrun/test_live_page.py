@@ -47,7 +47,7 @@ class Person(DryRunProgress):
         self.last: RunView | None = None
 
     def serves(self, address: str) -> None:
-        self.http = httpx.Client(base_url=address, trust_env=False, timeout=20)
+        self.http = httpx.Client(base_url=address, trust_env=False, timeout=60)
         threading.Thread(target=self._watch, daemon=True).start()
 
     def ended(self) -> None:

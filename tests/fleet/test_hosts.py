@@ -61,7 +61,7 @@ def process(*arguments: str, port: int | None = None, says: str = "") -> Iterato
         yield running
     finally:
         running.kill()
-        running.wait(10)
+        running.wait(60)
         running.stdout.close()
 
 

@@ -139,7 +139,7 @@ def test_wrong_wells_get_pictures_first() -> None:
 def test_the_filter_leaves_the_flagged_wells(store: Path, tmp_path: Path) -> None:
     page = tmp_path / "page.html"
     page.write_text(inspection_html(inspect_run(open_store(store), "run-1")), encoding="utf-8")
-    with chromium(tmp_path / "profile", (390, 844)) as browser:
+    with chromium((390, 844)) as browser:
         browser.open(page.as_uri())
         browser.until("document.querySelector('output').value === '8 of 8 wells'")
         browser.run("document.querySelector('[data-show=flagged]').click()")

@@ -49,7 +49,7 @@ class Slow:
 
     def ask(self, request: Request) -> Reply:
         self.asked += 1
-        self.let.wait(20)
+        self.let.wait(60)
         return Reply(State.ANSWERED, self.name, VIOLATED)
 
 
@@ -87,12 +87,12 @@ def serve(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Serve]:
     yield start
     for server, thread, listening in running:
         server.should_exit = True
-        thread.join(10)
+        thread.join(60)
         listening.close()
 
 
 def _until(true: Callable[[], bool]) -> None:
-    deadline = time.monotonic() + 20
+    deadline = time.monotonic() + 60
     while not true():
         assert time.monotonic() < deadline, "it did not come about"
         time.sleep(0.01)

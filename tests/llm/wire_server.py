@@ -79,7 +79,7 @@ class WireServer:
 
             def _give(self, answer: Answer) -> None:
                 if answer.hang:
-                    outer._over.wait(20)
+                    outer._over.wait(60)
                     self.close_connection = True
                     return
                 if answer.drip:

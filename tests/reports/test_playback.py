@@ -155,7 +155,7 @@ def tab(tmp_path_factory: pytest.TempPathFactory, page: str) -> Iterator[Browser
         pytest.skip("no Chromium")
     folder = tmp_path_factory.mktemp("playback")
     (folder / "page.html").write_text(page, encoding="utf-8")
-    with chromium(folder / "profile") as browser:
+    with chromium() as browser:
         browser.open((folder / "page.html").as_uri())
         browser.until("document.querySelector('.told')?.textContent")
         yield browser

@@ -147,7 +147,7 @@ def interruptible() -> Iterator[None]:
 @pytest.mark.slow
 @pytest.mark.usefixtures("interruptible")
 def test_interrupted_half_way_it_can_be_done_again(there: Robot, install: Install) -> None:
-    pip = 'touch "$HOME/tmp/half-way"; exec sleep 5'
+    pip = 'touch "$HOME/tmp/half-way"; exec sleep 60'
     there.says("python3", PIP_SAYS.format(pip=pip, version=__version__))
     interrupter = threading.Thread(target=_interrupt, args=(there.home / "tmp" / "half-way",))
     interrupter.start()
@@ -159,7 +159,7 @@ def test_interrupted_half_way_it_can_be_done_again(there: Robot, install: Instal
 
 
 def _interrupt(once: Path) -> None:
-    until = time.monotonic() + 10.0
+    until = time.monotonic() + 60.0
     while not once.exists() and time.monotonic() < until:
         time.sleep(0.02)
     os.kill(os.getpid(), signal.SIGINT)

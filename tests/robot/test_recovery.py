@@ -100,7 +100,7 @@ def test_a_failed_step_is_tried_again_from_the_page(
         def answer() -> None:
             with Robot(url, f"watch-{run.id}") as page:
                 for value in ("retry", "resume"):
-                    until = time.monotonic() + 30
+                    until = time.monotonic() + 60
                     while time.monotonic() < until:
                         found = [
                             one

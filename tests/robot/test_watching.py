@@ -177,7 +177,7 @@ def test_a_pause_of_the_watch_is_answered_on_the_page(client: RobotClient, tmp_p
             def answer() -> None:
                 while not any("Paused by the watch" in said for said in shown.said):
                     time.sleep(0.05)
-                until = time.monotonic() + 20
+                until = time.monotonic() + 60
                 while time.monotonic() < until:
                     found = situations(page.overview(), time.time())
                     if [one.kind for one in found] == ["paused"]:

@@ -65,7 +65,7 @@ class LiveRun:
 
     def start(self) -> LiveRun:
         self._thread.start()
-        assert self._ready.wait(30)
+        assert self._ready.wait(60)
         return self
 
     def play(self) -> None:
@@ -107,7 +107,7 @@ class LiveRun:
         if not inspect.iscoroutinefunction(getattr(self._orchestrator, name)):
             return getattr(self._orchestrator, name)()
         if self._thread.is_alive():
-            return asyncio.run_coroutine_threadsafe(self._call(name), self._loop).result(10)
+            return asyncio.run_coroutine_threadsafe(self._call(name), self._loop).result(60)
         return asyncio.run(self._call(name))
 
     async def _call(self, name: str, *arguments: Any) -> Any:
@@ -115,13 +115,13 @@ class LiveRun:
         done = getattr(self._orchestrator, name)(*arguments)
         return await done if inspect.isawaitable(done) else done
 
-    def wait_for_status(self, status: str, timeout: float = 30.0) -> None:
+    def wait_for_status(self, status: str, timeout: float = 60.0) -> None:
         until = time.monotonic() + timeout
         while self.status != status:
             assert time.monotonic() < until, f"{self.status!r} instead of {status!r}"
             time.sleep(0.01)
 
-    def join(self, timeout: float = 30.0) -> LiveRun:
+    def join(self, timeout: float = 60.0) -> LiveRun:
         self._thread.join(timeout)
         assert not self._thread.is_alive(), "the run did not end"
         if self.crash is not None:

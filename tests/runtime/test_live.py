@@ -6,14 +6,15 @@ import threading
 import time
 from collections import Counter
 from collections.abc import Callable, Iterator
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
 
 from aegis_ot.errors import RunAborted
+from aegis_ot.runtime import holding, outbox
 from aegis_ot.runtime import keyframe_sender as sender
 from aegis_ot.runtime import operator as operator_module
-from aegis_ot.runtime import outbox
 from aegis_ot.settings import Settings
 from aegis_ot.vocabulary import Outcome
 
@@ -40,7 +41,7 @@ def settings(sidecar: FakeSidecar, **more: Any) -> Settings:
     return Settings(**{"sidecar": sidecar.url, "run_id": "run", **more})
 
 
-def in_time(condition: Callable[[], bool], seconds: float = 30.0) -> None:
+def in_time(condition: Callable[[], bool], seconds: float = 60.0) -> None:
     until = time.monotonic() + seconds
     while not condition():
         assert time.monotonic() < until
@@ -64,7 +65,7 @@ def test_a_stop_during_a_hold_ends_the_run(api: str, sidecar: FakeSidecar) -> No
     # On the legacy core the hardware simulator makes is_simulating() true.
     told = settings(sidecar, watch_simulation=True, verdict_timeout_s=600.0)
     run = LiveRun(two_wells, told, api).start()
-    assert sidecar.asked.wait(10)
+    assert sidecar.asked.wait(60)
     run.stop()
     run.join()
     assert type(run.error).__name__ in ("RunStoppedError", "ExecutionCancelledError")
@@ -91,7 +92,7 @@ def test_a_stop_while_the_sidecar_hangs(
     sidecar.fault = hang
     patient = settings(sidecar, capture_timeout_s=600.0, verdict_timeout_s=600.0)
     run = LiveRun(two_wells, patient).start()
-    assert hanging.wait(10)
+    assert hanging.wait(60)
     run.stop()
     run.join()
     release.set()
@@ -140,13 +141,27 @@ def test_a_stop_during_the_pause_ends_as_opentrons_ends_it(sidecar: FakeSidecar)
     assert [f["outcome"] for f in sidecar.finished] == ["stopped"]
 
 
-def test_an_operators_pause_during_a_hold_waits_for_play(sidecar: FakeSidecar) -> None:
-    sidecar.outcomes[0] = None
-    run = LiveRun(two_wells, settings(sidecar, verdict_timeout_s=0.6)).start()
-    assert sidecar.asked.wait(10)
+def test_an_operators_pause_during_a_hold_waits_for_play(
+    sidecar: FakeSidecar, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    ahead = [0.0]
+    clock = SimpleNamespace(monotonic=lambda: time.monotonic() + ahead[0])
+    monkeypatch.setattr(holding, "time", clock)
+    is_paused, is_late = threading.Event(), threading.Event()
+
+    def pass_time(handler: Handler) -> bool:
+        if "/verdict" in handler.path and is_paused.is_set():
+            ahead[0] = 100.0  # longer than the verdict may take, were it not for the pause
+            is_late.set()
+        return False
+
+    sidecar.outcomes[0], sidecar.fault = None, pass_time
+    run = LiveRun(two_wells, settings(sidecar, verdict_timeout_s=90.0)).start()
+    assert sidecar.asked.wait(60)
     run.pause()
     run.wait_for_status("paused")
-    time.sleep(0.8)  # longer than the verdict may take, were it not for the pause
+    is_paused.set()
+    assert is_late.wait(60)
     sidecar.outcomes[0] = "pass"
     in_time(lambda: bool(sidecar.holds))
     assert sidecar.holds[0]["resolution"] == "verdict"
@@ -177,7 +192,7 @@ def test_continue_comments_and_goes_on(sidecar: FakeSidecar) -> None:
 
 def test_a_lost_sidecar_pauses_and_nothing_is_lost_when_it_is_back(sidecar: FakeSidecar) -> None:
     sidecar.fault = lambda handler: sidecar.fault is not None and _die_at(handler, sidecar, 2)
-    run = LiveRun(two_wells, settings(sidecar, capture_timeout_s=0.4)).start()
+    run = LiveRun(two_wells, settings(sidecar, capture_timeout_s=2.0)).start()
     run.wait_for_status("paused")
     with FakeSidecar(port=sidecar.port) as reborn:
         reborn.keyframes = sidecar.keyframes  # it kept its store
@@ -205,7 +220,7 @@ def comments(commands: list[Any]) -> list[str]:
 
 
 def test_a_lost_sidecar_is_told_while_it_is_tried_again(sidecar: FakeSidecar) -> None:
-    run = lost_at_the_third_keyframe(sidecar, 20.0)
+    run = lost_at_the_third_keyframe(sidecar, 60.0)
     with FakeSidecar(port=sidecar.port) as reborn:
         reborn.keyframes = sidecar.keyframes
         run.join()
@@ -230,7 +245,7 @@ def test_a_sidecar_that_is_slow_at_each_keyframe_is_told_of_once(
         return True
 
     sidecar.fault = slow
-    run = LiveRun(two_wells, settings(sidecar, capture_timeout_s=20.0)).start()
+    run = LiveRun(two_wells, settings(sidecar, capture_timeout_s=60.0)).start()
     run.join()
     assert run.error is None
     assert len(sidecar.stored()) == 8
@@ -238,10 +253,10 @@ def test_a_sidecar_that_is_slow_at_each_keyframe_is_told_of_once(
 
 
 def test_an_operator_who_pauses_during_the_retries_resumes_once(sidecar: FakeSidecar) -> None:
-    run = lost_at_the_third_keyframe(sidecar, 4.0)
+    run = lost_at_the_third_keyframe(sidecar, 6.0)
     run.pause()
     run.wait_for_status("paused")
-    time.sleep(3.5)  # the retries end meanwhile
+    time.sleep(6.0)  # the retries end meanwhile
     with FakeSidecar(port=sidecar.port) as reborn:
         reborn.keyframes = sidecar.keyframes
         in_time(lambda: len(reborn.stored()) == 3)
@@ -349,9 +364,9 @@ def test_a_legacy_protocol_goes_on_as_configured(legacy: str, sidecar: FakeSidec
 
 def test_a_legacy_protocol_waits_for_a_lost_sidecar(legacy: str, sidecar: FakeSidecar) -> None:
     sidecar.fault = lambda handler: sidecar.fault is not None and _die_at(handler, sidecar, 2)
-    run = LiveRun(two_wells, settings(sidecar, capture_timeout_s=0.4), legacy).start()
+    run = LiveRun(two_wells, settings(sidecar, capture_timeout_s=2.0), legacy).start()
     run.wait_for_status("paused")
-    time.sleep(0.8)  # longer than it is tried again
+    time.sleep(2.5)  # longer than it is tried again
     with FakeSidecar(port=sidecar.port) as reborn:
         reborn.keyframes = sidecar.keyframes
         run.play()

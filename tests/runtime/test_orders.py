@@ -54,7 +54,7 @@ def test_a_pause_is_taken_up_once_and_tells_who_ordered_it(
 def test_a_pause_is_taken_up_in_a_hold(sidecar: FakeSidecar, robot: RobotServer) -> None:
     sidecar.outcomes[0] = None
     run = robot.run = LiveRun(two_wells, settings(sidecar)).start()
-    assert sidecar.asked.wait(10)
+    assert sidecar.asked.wait(60)
     sidecar.order = order("pause")
     run.wait_for_status("paused")
     sidecar.outcomes[0] = "pass"

@@ -305,7 +305,7 @@ def test_a_stop_during_a_recovery_ends_the_run_at_once(api: str, sidecar: FakeSi
 
     sidecar.fault = hang  # at the TRANSIT keyframe of the recovery
     run = live(sidecar, ONE_TIP, api)
-    assert hanging.wait(20)
+    assert hanging.wait(60)
     run.stop()
     run.join()
     release.set()

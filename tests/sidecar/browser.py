@@ -1,7 +1,12 @@
-"""A real Chromium, spoken to over its debugging pipe; for tests of the page."""
+"""A real Chromium, spoken to over its debugging pipe; for tests of the page.
+
+One serves all tests of a process, for it takes longer to start than most of them take. Each test
+has a tab in a profile of its own: it sees no cookie and no store of another one's.
+"""
 
 from __future__ import annotations
 
+import atexit
 import base64
 import contextlib
 import json
@@ -9,6 +14,7 @@ import os
 import select
 import shutil
 import subprocess
+import tempfile
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -17,16 +23,97 @@ from typing import Any
 CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "chrome"))), None)
 
 
-class Browser:
-    """One tab. Commands go out on one pipe, answers and events come back on another."""
+class Chromium:
+    """The program. Commands go out on one pipe, answers and events come back on another."""
 
-    def __init__(self, out: int, back: int) -> None:
-        self._out, self._back = out, back
+    def __init__(self) -> None:
+        assert CHROMIUM is not None
         self._number = 0
         self._buffer = b""
+        self._folder = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
+        there, self._out = os.pipe()
+        self._back, here = os.pipe()
+        command = [
+            CHROMIUM,
+            "--headless",
+            "--no-sandbox",
+            "--disable-gpu",
+            "--no-first-run",
+            "--disable-dev-shm-usage",
+            "--remote-debugging-pipe",
+            f"--user-data-dir={self._folder.name}",
+        ]
+        # Chromium reads commands from descriptor 3 and answers on 4.
+        shell = f'exec "$@" 3<&{there} 4>&{here}'
+        self._process = subprocess.Popen(
+            ["/bin/bash", "-c", shell, "bash", *command],
+            pass_fds=(there, here),
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+        )
+        os.close(there)
+        os.close(here)
+
+    def call(
+        self, method: str, params: dict[str, Any], session: str | None, errors: list[str]
+    ) -> dict[str, Any]:
+        """One command, and its answer; what goes wrong in the page meanwhile is noted."""
+        self._number += 1
+        message = {"id": self._number, "method": method, "params": params}
+        if session is not None:
+            message["sessionId"] = session
+        os.write(self._out, json.dumps(message).encode() + b"\0")
+        while True:
+            answer = self._receive(60)
+            if answer.get("sessionId") == session:
+                errors += _errors_in(answer)
+            if answer.get("id") == self._number:
+                if "error" in answer:
+                    raise RuntimeError(f"{method}: {answer['error']}")
+                result: dict[str, Any] = answer["result"]
+                return result
+
+    def close(self) -> None:
+        """End it. Idempotent."""
+        if self._process.poll() is None:
+            self._process.kill()
+            self._process.wait()
+            os.close(self._out)
+            os.close(self._back)
+            self._folder.cleanup()
+
+    def _receive(self, seconds: float) -> dict[str, Any]:
+        while b"\0" not in self._buffer:
+            if not select.select([self._back], [], [], seconds)[0]:
+                raise TimeoutError("the browser does not answer")
+            came = os.read(self._back, 1 << 16)
+            if not came:
+                raise TimeoutError("the browser has ended")
+            self._buffer += came
+        first, _, self._buffer = self._buffer.partition(b"\0")
+        message: dict[str, Any] = json.loads(first)
+        return message
+
+
+def _errors_in(message: dict[str, Any]) -> list[str]:
+    if message.get("method") == "Runtime.exceptionThrown":
+        return [str(message["params"]["exceptionDetails"])]
+    if message.get("method") == "Runtime.consoleAPICalled" and message["params"]["type"] == "error":
+        return [str(message["params"]["args"])]
+    return []
+
+
+class Browser:
+    """One tab."""
+
+    def __init__(self, program: Chromium, profile: str, size: tuple[int, int]) -> None:
+        self._program = program
         self._session: str | None = None
         self.errors: list[str] = []
-        target = self.call("Target.createTarget", url="about:blank")["targetId"]
+        target = self.call(
+            "Target.createTarget", url="about:blank", browserContextId=profile,
+            width=size[0], height=size[1],
+        )["targetId"]  # fmt: skip
         attached = self.call("Target.attachToTarget", targetId=target, flatten=True)
         self._session = attached["sessionId"]
         self.call("Runtime.enable")
@@ -34,18 +121,7 @@ class Browser:
 
     def call(self, method: str, **params: Any) -> dict[str, Any]:
         """One command of the DevTools protocol, and its answer."""
-        self._number += 1
-        message = {"id": self._number, "method": method, "params": params}
-        if self._session is not None:
-            message["sessionId"] = self._session
-        os.write(self._out, json.dumps(message).encode() + b"\0")
-        while True:
-            answer = self._receive(20)
-            if answer.get("id") == self._number:
-                if "error" in answer:
-                    raise RuntimeError(f"{method}: {answer['error']}")
-                result: dict[str, Any] = answer["result"]
-                return result
+        return self._program.call(method, params, self._session, self.errors)
 
     def run(self, script: str) -> Any:
         """The value of a JavaScript expression; promises are awaited."""
@@ -60,7 +136,7 @@ class Browser:
         """Go to an address."""
         self.call("Page.navigate", url=url)
 
-    def until(self, script: str, seconds: float = 15) -> None:
+    def until(self, script: str, seconds: float = 60) -> None:
         """Return as soon as an expression is true; it is looked at after every change."""
         deadline = time.monotonic() + seconds
         while time.monotonic() < deadline:
@@ -82,54 +158,22 @@ class Browser:
         data = self.call("Page.captureScreenshot", format="png")["data"]
         path.write_bytes(base64.b64decode(data))
 
-    def _receive(self, seconds: float) -> dict[str, Any]:
-        while b"\0" not in self._buffer:
-            if not select.select([self._back], [], [], seconds)[0]:
-                raise TimeoutError("the browser does not answer")
-            self._buffer += os.read(self._back, 1 << 16)
-        first, _, self._buffer = self._buffer.partition(b"\0")
-        message: dict[str, Any] = json.loads(first)
-        if message.get("method") == "Runtime.exceptionThrown":
-            self.errors.append(str(message["params"]["exceptionDetails"]))
-        if message.get("method") == "Runtime.consoleAPICalled" and (
-            message["params"]["type"] == "error"
-        ):
-            self.errors.append(str(message["params"]["args"]))
-        return message
+
+_programs: list[Chromium] = []
 
 
 @contextlib.contextmanager
-def chromium(folder: Path, size: tuple[int, int] = (1700, 900)) -> Iterator[Browser]:
-    """Start a browser with a profile of its own."""
-    assert CHROMIUM is not None
-    there, out = os.pipe()
-    back, here = os.pipe()
-    command = [
-        CHROMIUM,
-        "--headless",
-        "--no-sandbox",
-        "--disable-gpu",
-        "--no-first-run",
-        "--disable-dev-shm-usage",
-        "--remote-debugging-pipe",
-        f"--user-data-dir={folder}",
-        f"--window-size={size[0]},{size[1]}",
-    ]
-
-    # Chromium reads commands from descriptor 3 and answers on 4.
-    shell = f'exec "$@" 3<&{there} 4>&{here}'
-    process = subprocess.Popen(
-        ["/bin/bash", "-c", shell, "bash", *command],
-        pass_fds=(there, here),
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.DEVNULL,
-    )
-    os.close(there)
-    os.close(here)
+def chromium(size: tuple[int, int] = (1700, 900)) -> Iterator[Browser]:
+    """A tab with a profile of its own."""
+    if not _programs:
+        _programs.append(Chromium())
+        atexit.register(_programs[-1].close)
+    program = _programs[-1]
     try:
-        yield Browser(out, back)
-    finally:
-        process.kill()
-        process.wait()
-        os.close(out)
-        os.close(back)
+        profile = program.call("Target.createBrowserContext", {}, None, [])["browserContextId"]
+        yield Browser(program, profile, size)
+        program.call("Target.disposeBrowserContext", {"browserContextId": profile}, None, [])
+    except BaseException:
+        _programs.clear()  # whatever it was, the next test begins with another one
+        program.close()
+        raise

@@ -41,7 +41,7 @@ def wait_for_clip(robot: Robot, trajectory: int) -> str:
     version = 0
     for _ in range(50):
         told = robot.http.get(
-            f"/v1/runs/{robot.run}", params={"after": version, "wait": 2}, timeout=20
+            f"/v1/runs/{robot.run}", params={"after": version, "wait": 2}, timeout=60
         ).json()
         version, entry = told["version"], told["trajectories"][trajectory]
         if entry["clip"] is not None:

@@ -33,7 +33,7 @@ def guarded(tmp_path: Path) -> Iterator[str]:
 
 def connect(url: str, says: bytes = b"") -> socket.socket:
     parts = urlsplit(url)
-    peer = socket.create_connection((parts.hostname or "", parts.port or 0), timeout=10)
+    peer = socket.create_connection((parts.hostname or "", parts.port or 0), timeout=60)
     peer.sendall(says)
     return peer
 

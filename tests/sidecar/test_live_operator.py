@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 
 import httpx
@@ -31,7 +30,7 @@ class Stage:
 
     def __init__(self, url: str, run: LiveRun) -> None:
         self.run = run
-        self.http = httpx.Client(base_url=url, trust_env=False, timeout=20)
+        self.http = httpx.Client(base_url=url, trust_env=False, timeout=60)
 
     def overview(self) -> dict[str, Any]:
         answer: dict[str, Any] = self.http.get("/v1/runs/run").json()
@@ -223,11 +222,11 @@ def pauses(run: LiveRun) -> list[Any]:
 
 @pytest.mark.skipif(CHROMIUM is None, reason="no Chromium on this machine")
 def test_pause_resume_and_stop_are_pressed_while_the_robot_moves(
-    config: SidecarConfig, robot: RobotServer, tmp_path: Path
+    config: SidecarConfig, robot: RobotServer
 ) -> None:
     camera = StubCamera()
     camera.gate.clear()
-    with running_sidecar(config, camera, StubAnalyser()) as url, chromium(tmp_path) as tab:
+    with running_sidecar(config, camera, StubAnalyser()) as url, chromium() as tab:
         run = robot.run = LiveRun(two_wells, Settings(sidecar=url, run_id="run")).start()
         tab.open(url)
         tab.until("document.querySelector('#order button[value=pause]')")

@@ -40,7 +40,7 @@ class Inbox:
             def do_POST(self) -> None:
                 body = json.loads(self.rfile.read(int(self.headers["Content-Length"])))
                 owner.reached.set()
-                owner.gate.wait(10)
+                owner.gate.wait(60)
                 owner.tries += 1
                 if not owner.broken:
                     owner.received.put(body)
@@ -54,7 +54,7 @@ class Inbox:
         self.url = f"json://127.0.0.1:{self.server.server_port}/hook"
 
     def next(self) -> dict[str, Any]:
-        return self.received.get(timeout=20)
+        return self.received.get(timeout=60)
 
 
 @pytest.fixture
@@ -144,7 +144,7 @@ def test_what_waits_of_one_kind_goes_into_one_message_and_no_verdict_waits(
         robot.register()
         robot.cycle(0)
         robot.verdict(0)
-        assert inbox.reached.wait(20)  # the first is on its way; the others pile up behind it
+        assert inbox.reached.wait(60)  # the first is on its way; the others pile up behind it
         for trajectory in range(1, 6):
             robot.cycle(trajectory)
             assert robot.verdict(trajectory)["verdict"]["outcome"] == "fail"
@@ -165,7 +165,7 @@ def test_one_message_for_all_that_waits_of_one_kind(inbox: Inbox) -> None:
         [SecretStr(inbox.url)], lambda ns: Notification(f"{len(ns)} {ns[0].kind}", "-")
     )
     notifier.send(Notice("run", "fail", "a well failed", "seen"))
-    assert inbox.reached.wait(20)
+    assert inbox.reached.wait(60)
     for kind in ("fail", "camera", "fail", "fail"):
         notifier.send(Notice("run", kind, "more", "seen"))
     inbox.gate.set()
@@ -187,7 +187,7 @@ def test_what_cannot_be_sent_is_tried_again_and_shown(inbox: Inbox) -> None:
         [SecretStr(inbox.url)], None, lambda notice, why: failed.append(why), retries_s=(0.05, 0.05)
     )
     notifier.send(Notice("run", "fail", "a well failed", "seen"))
-    until = time.monotonic() + 20
+    until = time.monotonic() + 60
     while not failed and time.monotonic() < until:
         time.sleep(0.02)
     assert inbox.tries == 3

@@ -11,7 +11,7 @@ import pytest
 from aegis_ot.sidecar import SidecarConfig, running_sidecar
 from aegis_ot.sidecar.config import OperatorSettings
 
-from .helpers import Robot, StubAnalyser, StubCamera
+from .helpers import Robot, StubAnalyser, StubCamera, until
 
 
 def decide(robot: Robot, trajectory: int, outcome: str, by: str = "Ada") -> int:
@@ -77,10 +77,10 @@ def test_a_decision_outlives_a_restart(config: SidecarConfig) -> None:
         assert robot.verdict(0)["verdict"]["outcome"] == "fail"
 
 
-@pytest.fixture
-def patient(config: SidecarConfig) -> Iterator[Robot]:
-    """A sidecar that holds undecided verdicts back for the operator."""
-    patient = config.model_copy(update={"operator": OperatorSettings(timeout_s=0.6)})
+@pytest.fixture(params=[600.0])
+def patient(config: SidecarConfig, request: pytest.FixtureRequest) -> Iterator[Robot]:
+    """A sidecar that holds undecided verdicts back for the operator, for so many s."""
+    patient = config.model_copy(update={"operator": OperatorSettings(timeout_s=request.param)})
     analyser = StubAnalyser(fails=[1], unsure=[0])
     with running_sidecar(patient, StubCamera(), analyser) as url, Robot(url) as robot:
         robot.register()
@@ -89,25 +89,27 @@ def patient(config: SidecarConfig) -> Iterator[Robot]:
 
 def test_an_undecided_verdict_waits_for_the_operator(patient: Robot) -> None:
     patient.cycle(0)
-    assert patient.verdict(0, wait=0.2) == {"verdict": None, "awaiting": "operator"}
+    awaiting = {"verdict": None, "awaiting": "operator"}
+    until(lambda: patient.verdict(0, wait=0.2) == awaiting)
     assert patient.overview()["trajectories"][0]["awaiting"] == "operator"
     timer = threading.Timer(0.1, decide, (patient, 0, "pass"))
     timer.start()
-    verdict = patient.verdict(0, wait=1.0)["verdict"]
+    verdict = patient.verdict(0)["verdict"]
     timer.join()
     assert (verdict["outcome"], verdict["gate"]) == ("pass", "operator")
 
 
+@pytest.mark.parametrize("patient", [0.3], indirect=True)
 def test_an_operator_who_does_not_come_leaves_it_undecided(patient: Robot) -> None:
     patient.cycle(0)
-    verdict = patient.verdict(0, wait=1.0)["verdict"]
+    verdict = patient.verdict(0)["verdict"]
     assert verdict["outcome"] == "undecided"
 
 
 def test_a_fail_is_never_held_back(patient: Robot) -> None:
     patient.cycle(0)
     patient.cycle(1)
-    assert patient.verdict(1, wait=0.5)["verdict"]["outcome"] == "fail"
+    assert patient.verdict(1)["verdict"]["outcome"] == "fail"
 
 
 def test_the_analyser_hears_of_a_well_that_the_operator_found_right(

@@ -81,8 +81,8 @@ def test_a_person_answers_without_a_script_and_is_remembered(robot: Robot) -> No
 
 
 @pytest.fixture
-def tab(tmp_path: Path) -> Iterator[Browser]:
-    with chromium(tmp_path / "profile", SIZES["tablet"]) as tab:
+def tab() -> Iterator[Browser]:
+    with chromium(SIZES["tablet"]) as tab:
         yield tab
 
 

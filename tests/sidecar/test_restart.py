@@ -128,12 +128,13 @@ def test_kill_9_loses_no_acknowledged_keyframe(settings: Path, tmp_path: Path) -
     acknowledged: list[int] = []
     with sidecar_process(settings) as (pid, url), Robot(url) as robot:
         robot.register()
-        # Killed from outside while keyframes are under way, at no chosen moment.
-        threading.Timer(0.4, os.kill, (pid, signal.SIGKILL)).start()
         with contextlib.suppress(httpx.TransportError):
             while True:
                 answer = robot.send(len(acknowledged))
                 acknowledged.append(answer.json()["sequence"])
+                if len(acknowledged) == 1:
+                    # Killed from outside while keyframes are under way, at no chosen moment.
+                    threading.Timer(0.3, os.kill, (pid, signal.SIGKILL)).start()
     assert acknowledged
     with sidecar_process(settings) as (_, url), Robot(url) as robot:
         answer = robot.send(len(acknowledged) + 5)
@@ -252,14 +253,14 @@ def test_a_stop_is_clean(number: signal.Signals, tmp_path: Path) -> None:
 
         def wait() -> None:
             query = {"after": version, "wait": 20}
-            answer = httpx.get(f"{url}/v1/news", params=query, trust_env=False, timeout=30)
+            answer = httpx.get(f"{url}/v1/news", params=query, trust_env=False, timeout=60)
             answers.append(answer.status_code)
 
         page = threading.Thread(target=wait)
         page.start()
         page.join(0.5)
         process.send_signal(number)
-        assert process.wait(10) == 0
-        page.join(10)
+        assert process.wait(60) == 0
+        page.join(60)
         assert answers == [200]
     Store(tmp_path, alone=True).close()

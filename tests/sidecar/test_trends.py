@@ -149,7 +149,7 @@ def test_the_command(aegis: Command, tmp_path: Path) -> None:  # noqa: F811
 def test_the_page(
     config: SidecarConfig, camera: StubCamera, analyser: StubAnalyser, tmp_path: Path
 ) -> None:
-    with running_sidecar(config, camera, analyser) as url, chromium(tmp_path / "browser") as tab:
+    with running_sidecar(config, camera, analyser) as url, chromium() as tab:
         tab.open(f"{url}/trends")
         tab.until("document.querySelector('main p + p').textContent === 'No well was judged yet.'")
         store = Store(config.data)

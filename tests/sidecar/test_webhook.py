@@ -37,7 +37,7 @@ class Receiver:
         class Handler(BaseHTTPRequestHandler):
             def do_POST(self) -> None:
                 body = self.rfile.read(int(self.headers["Content-Length"]))
-                receiver.hang.wait(30)
+                receiver.hang.wait(60)
                 receiver.got.append((dict(self.headers), body))
                 self.send_response(receiver.answers.pop(0) if receiver.answers else 204)
                 self.end_headers()

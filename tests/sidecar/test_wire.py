@@ -21,7 +21,7 @@ def test_a_cycle_is_captured_and_judged(robot: Robot) -> None:
         answer = robot.send(sequence).json()
         assert answer["sequence"] == sequence
         assert answer["captured"] is True
-        assert 0 <= answer["exposed_after_s"] < 1
+        assert 0 <= answer["exposed_after_s"] < 60
     verdict = from_json(Verdict, robot.verdict(0)["verdict"])
     assert (verdict.run, verdict.trajectory, verdict.outcome.value) == ("run-1", 0, "pass")
 
@@ -51,7 +51,7 @@ def test_the_same_keyframe_twice_at_once_is_captured_once(robot: Robot, camera: 
         thread.start()
     camera.gate.set()
     for thread in threads:
-        thread.join(10)
+        thread.join(60)
     assert camera.grabbed == [0]
     assert len(answers) == 3
     assert answers[0] == answers[1] == answers[2]
@@ -151,7 +151,7 @@ def test_two_runs_at_once_do_not_mix(url: str, analyser: StubAnalyser) -> None:
     for thread in threads:
         thread.start()
     for thread in threads:
-        thread.join(20)
+        thread.join(60)
     assert outcomes == {name: ["pass", "fail", "undecided"] for name in ("a", "b")}
     for name in ("a", "b"):
         assert [n for run, n in analyser.observed if run == name] == list(range(12))

@@ -108,7 +108,7 @@ def test_a_slow_analyser_holds_up_no_keyframe_and_loses_none(config: SidecarConf
     seen: list[int] = []
 
     def observe(keyframe: Keyframe) -> None:
-        assert gate.wait(10)
+        assert gate.wait(60)
         seen.append(keyframe.sequence)
 
     with running_sidecar(config, StubCamera(), Broken(observe=observe)) as url, Robot(url) as robot:
@@ -123,7 +123,7 @@ def test_a_slow_analyser_holds_up_no_keyframe_and_loses_none(config: SidecarConf
 
 def test_a_frame_lost_from_the_store_is_told(config: SidecarConfig, tmp_path: Path) -> None:
     gate = threading.Event()
-    analyser = Broken(begin=lambda: gate.wait(10) and None)
+    analyser = Broken(begin=lambda: gate.wait(60) and None)
     with running_sidecar(config, StubCamera(), analyser) as url, Robot(url) as robot:
         robot.register()
         for trajectory in range(4):

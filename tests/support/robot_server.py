@@ -94,7 +94,7 @@ class RobotServer:
         for run in self.runs.values():
             run.stop_soon()
         self._server.should_exit = True
-        self._thread.join(10)
+        self._thread.join(60)
         self.folder.cleanup()
 
     def shifted(self, value: Any) -> Any:
@@ -214,7 +214,7 @@ class _Run:
     def stop_soon(self) -> None:
         if self._task is not None and self.status not in ENDED:
             with contextlib.suppress(Exception):
-                asyncio.run_coroutine_threadsafe(self.orchestrator.stop(), self._loop).result(5)
+                asyncio.run_coroutine_threadsafe(self.orchestrator.stop(), self._loop).result(30)
 
     async def _run(self) -> None:
         try:

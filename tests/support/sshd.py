@@ -100,7 +100,7 @@ class Robot:
             Path("/run/sshd").mkdir(mode=0o755, exist_ok=True)  # as its service would
         with (self._folder / "sshd.log").open("wb") as log:
             self._server = subprocess.Popen([self._sshd, "-D", "-e", "-f", path], stderr=log)
-        until = time.monotonic() + 10.0
+        until = time.monotonic() + 60.0
         while time.monotonic() < until:
             with socket.socket() as there:
                 if there.connect_ex(("127.0.0.1", self.port)) == 0:
@@ -113,7 +113,7 @@ class Robot:
         """Serve no longer."""
         if self._server is not None:
             self._server.kill()
-            self._server.wait(10)
+            self._server.wait(60)
             self._server = None
 
     def __enter__(self) -> Robot:

@@ -34,7 +34,7 @@ def test_results_and_reports_keep_the_order_of_the_files() -> None:
 
     def check(file: Path, rehearser: LazyRehearser) -> str:
         if file.name == "first":
-            assert second_is_done.wait(30), "they do not run side by side"
+            assert second_is_done.wait(60), "they do not run side by side"
         else:
             second_is_done.set()
         return file.name
@@ -83,7 +83,7 @@ def test_an_interruption_is_heard_whichever_thread_the_system_gives_it_to() -> N
 
     def check(file: Path, rehearser: LazyRehearser) -> None:
         if file.name == "second":
-            assert all_are_asked_for.wait(30)
+            assert all_are_asked_for.wait(60)
             signal.pthread_kill(threading.get_ident(), signal.SIGINT)
             heard.append(rehearser.cancelled.wait(60))
 

@@ -119,7 +119,7 @@ def test_one_caller_that_is_ended_leaves_the_others_alone(tmp_path: Path, socket
         while not flag.exists():
             assert caller.is_alive()
         one.cancel()
-        caller.join(30)
+        caller.join(60)
         assert ended
         assert two.perform(task(good)).report.verdict == "pass"
     assert verdict(good) == "pass"
