@@ -73,10 +73,10 @@ ALL = protocols(
     EXAMPLES / "benchmark",
     EXAMPLES / "benchmark-multi",
     EXAMPLES / "demo",
-    PROTOCOLS / "transparency",
 )
 ALL += protocols(EXAMPLES / "prose-benchmark")[::10]  # all of them have been rehearsed
-# Those in public style are rehearsed by tests/preflight/test_public_style.py.
+# Those in public style are rehearsed by tests/preflight/test_public_style.py, and those of the
+# transparency set simulated by tests/compat/test_matrix.py.
 
 
 @pytest.mark.parametrize("path", ALL, ids=short)

@@ -29,6 +29,7 @@ class Environment:
         robots: Prefixes of the protocols that this release simulates.
         newest: The last apiLevel that it knows, 2.N.
         instead: Requirements in place of those of opentrons.
+        every: Of the protocols each so-manieth is run: another environment has this release too.
     """
 
     name: str
@@ -37,6 +38,7 @@ class Environment:
     robots: tuple[str, ...] = ("ot2", "flex")
     newest: int = 99
     instead: tuple[str, ...] = ()
+    every: int = 1
 
     @property
     def interpreter(self) -> Path:
@@ -90,7 +92,9 @@ MATRIX = (
     Environment("py310-ot82", "3.10", "opentrons==8.2.0", robots=("ot2",), newest=21),
     Environment("py310-ot8", "3.10", "opentrons==8.8.2", newest=27),
     # opentrons asks for a numpy that no wheel for 3.13 has; compiling it takes minutes.
-    Environment("py313-ot8", "3.13", "opentrons==8.8.2", newest=27, instead=("numpy>=2.1,<2.4",)),
+    Environment(
+        "py313-ot8", "3.13", "opentrons==8.8.2", newest=27, instead=("numpy>=2.1,<2.4",), every=3
+    ),
     Environment("py311-ot9", "3.11", "opentrons==9.0.0", newest=28),
     Environment("py312-ot10", "3.12", "opentrons>=10,<11", robots=("flex",)),
 )

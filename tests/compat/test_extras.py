@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import atexit
 import os
+import shutil
 import subprocess
+import tempfile
 from pathlib import Path
 
 import pytest
@@ -23,10 +26,14 @@ class Environment:
 
     def __init__(self, folder: Path, *extras: str) -> None:
         self._python = make_environment(folder, extras)
+        # A rehearsing process of this environment serves its later commands: a socket's path is
+        # short.
+        self._sockets = tempfile.mkdtemp(prefix="aegis-")
+        atexit.register(shutil.rmtree, self._sockets, ignore_errors=True)
 
     def __call__(self, *arguments: str, **environ: str) -> subprocess.CompletedProcess[str]:
         kept = {k: v for k, v in os.environ.items() if not k.startswith(("AEGIS_OT_", "PYTHON"))}
-        kept["AEGIS_OT_WARM"] = "0"
+        kept |= {"AEGIS_OT_WARM": "30", "XDG_RUNTIME_DIR": self._sockets}
         kept["XDG_DATA_HOME"] = str(self._python.parent.parent / "data")  # nobody's engines
         return subprocess.run(
             [str(self._python), "-m", "aegis_ot", *arguments],

@@ -1,4 +1,4 @@
-"""The guard changes nothing, on each ``opentrons`` that this machine can run.
+"""The guard changes nothing, and needs nothing else, on each ``opentrons`` that this machine runs.
 
 The environments are made by ``make matrix``; without them the main environment is tested alone,
 and the tests say what they left out.
@@ -8,15 +8,19 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 from opentrons.protocols.api_support.definitions import MAX_SUPPORTED_VERSION
 
 from .environments import MATRIX, ROOT, Environment
 
+LOGS = {"py310-ot8", "py312-ot10"}
+"""Where run logs are compared too: with the usual release of an OT-2, and with the newest."""
 PROTOCOLS = ROOT / "tests" / "protocols" / "transparency"
 
 
@@ -36,18 +40,30 @@ def run_in(python: str | Path, *arguments: str) -> str:
     return done.stdout
 
 
-def problems_of(python: str | Path, robots: tuple[str, ...], newest: int = 99) -> list[str]:
+def problems_of(
+    python: str | Path, robots: tuple[str, ...], newest: int, logs: bool = True, every: int = 1
+) -> list[str]:
     files = sorted(
         str(path)
         for robot in robots
         for path in PROTOCOLS.glob(f"{robot}_*.py")
         if int(path.name.split("_")[1]) <= newest
+    )[::every]
+    how = [] if logs else ["--commands"]
+    report: dict[str, Any] = json.loads(
+        run_in(python, "-m", "tests.compat.transparency", *how, *files)
     )
-    report = json.loads(run_in(python, "-m", "tests.compat.transparency", *files))
     compared = report["protocols"]
     assert len(compared) == len(files)
     assert sum(one.get("keyframes", 0) for one in compared) > 100, "Layer 2 was not at work"
-    return [f"{one['file']}: {problem}" for one in compared for problem in one["problems"]]
+    foreign = set(report["modules"]) - {"aegis_ot"} - set(sys.stdlib_module_names)
+    problems = [f"The robot half loads {name}." for name in sorted(foreign)]
+    for path, one in zip(map(Path, files), compared, strict=True):
+        expected = re.search(r"^# raises: (.+)$", path.read_text("utf-8"), re.MULTILINE)
+        if bool(expected) != bool(one["own_error"]):
+            problems.append(f"{path.name}: it ended with {one['own_error']}")
+        problems += [f"{path.name}: {problem}" for problem in one["problems"]]
+    return problems
 
 
 def ready(environment: Environment) -> Environment:
@@ -72,8 +88,8 @@ def test_liquid_commands_are_unchanged_here():
 @pytest.mark.timeout(900)
 @pytest.mark.parametrize("environment", MATRIX, ids=lambda e: e.name)
 def test_liquid_commands_are_unchanged(environment):
-    python = ready(environment).interpreter
-    assert problems_of(python, environment.robots, environment.newest) == []
+    e = ready(environment)
+    assert problems_of(e.interpreter, e.robots, e.newest, e.name in LOGS, e.every) == []
 
 
 def flex_stories_of(python: str | Path) -> dict[str, str]:
@@ -92,26 +108,3 @@ def test_a_live_flex_is_guarded_here():
 )
 def test_a_live_flex_is_guarded(environment):
     assert flex_stories_of(ready(environment).interpreter) == {}
-
-
-ALONE = """
-import json, sys
-import opentrons.simulate
-before = set(sys.modules)
-import time; begun = time.perf_counter()
-from aegis_ot import guard
-seconds = time.perf_counter() - begun
-import aegis_ot.guarded_run, aegis_ot.preflight.check_protocol
-import aegis_ot.adapters.opentrons.rehearsal, aegis_ot.adapters.opentrons.instrumentation
-import aegis_ot.runtime, aegis_ot.settings
-new = sorted({name.split(".")[0] for name in set(sys.modules) - before})
-print(json.dumps({"new": new, "seconds": seconds}))
-"""
-
-
-@pytest.mark.parametrize("environment", MATRIX, ids=lambda e: e.name)
-def test_the_robot_half_needs_nothing_but_opentrons(environment):
-    python = ready(environment).interpreter
-    told = json.loads(run_in(python, "-c", ALONE))
-    foreign = set(told["new"]) - {"aegis_ot"} - set(sys.stdlib_module_names)
-    assert foreign == set()

@@ -4,10 +4,11 @@ A plain program, so that it runs in an interpreter that has nothing but ``opentr
 
     python -m tests.compat.transparency tests/protocols/transparency/*.py
 
-prints one JSON object: versions, and per protocol what was found. The guard has a sidecar (a
-stub on loopback that answers every keyframe and passes every well) and acts in simulation, so
-that both layers are at work; its comments, and its moves above a well, are the only commands it
-may add. All others are compared with all their parameters.
+prints one JSON object: versions, what the guard loads, and per protocol what was found. With
+``--commands`` before the files run logs are compared only where there is nothing else. The guard
+has a sidecar (a stub on loopback that answers every keyframe and passes every well) and acts in
+simulation, so that both layers are at work; its comments, and its moves above a well, are the only
+commands it may add. All others are compared with all their parameters.
 """
 
 from __future__ import annotations
@@ -181,31 +182,20 @@ def _params(command):
     return json.loads(model.json(exclude_none=True))  # opentrons 8.2 and older
 
 
-def compare(path, url, keyframes):
+def compare(path, url, keyframes, logs=True):
     """Compare one protocol; returns a dict for the report."""
-    return compare_text(path.read_text(encoding="utf-8"), path.name, url, keyframes)
+    return compare_text(path.read_text(encoding="utf-8"), path.name, url, keyframes, logs)
 
 
-def compare_text(text, name, url, keyframes):
+def compare_text(text, name, url, keyframes, logs=True):
+    """Without ``logs`` an engine's protocol is run for its commands alone, which say all that its
+    run log says: half of the time. A legacy protocol has no more than its log."""
     guarded = guarded_text(text, url)
     del keyframes[:]
-    plain, watched = simulate(text, name), simulate(guarded, name)
-    seen = len(keyframes)
-    result = {
-        "file": name,
-        "keyframes": seen,
-        "lines": len(plain["log"] or ()),
-        "problems": [],
-    }
-    if plain["error"] != watched["error"]:
-        result["problems"].append(f"error {plain['error']!r} became {watched['error']!r}")
-    if plain["log"] != watched["log"]:
-        result["problems"].append(f"run log differs: {_first(plain['log'], watched['log'])}")
-    engine_plain, engine_guarded = (
-        engine_commands(text, name),
-        engine_commands(guarded, name),
-    )
+    result = {"file": name, "problems": [], "own_error": None, "engine_commands": None, "lines": 0}
+    engine_plain = engine_commands(text, name)
     if engine_plain is not None:
+        engine_guarded = engine_commands(guarded, name)
         left = without_added(engine_plain["commands"], engine_guarded["commands"])
         if left != engine_plain["commands"] or engine_plain["error"] != engine_guarded["error"]:
             result["problems"].append(
@@ -213,9 +203,17 @@ def compare_text(text, name, url, keyframes):
                 + _first(engine_plain["commands"], left)
                 + f" ({engine_plain['error']} / {engine_guarded['error']})"
             )
-    result["engine_commands"] = len(engine_plain["commands"]) if engine_plain else None
-    result["own_error"] = plain["error"]
-    return result
+        result["engine_commands"] = len(engine_plain["commands"])
+        result["own_error"] = engine_plain["error"]
+    if logs or engine_plain is None:
+        del keyframes[:]
+        plain, watched = simulate(text, name), simulate(guarded, name)
+        if plain["error"] != watched["error"]:
+            result["problems"].append(f"error {plain['error']!r} became {watched['error']!r}")
+        if plain["log"] != watched["log"]:
+            result["problems"].append(f"run log differs: {_first(plain['log'], watched['log'])}")
+        result |= {"lines": len(plain["log"] or ()), "own_error": plain["error"]}
+    return result | {"keyframes": len(keyframes)}
 
 
 def _first(one, other):
@@ -248,7 +246,7 @@ def warm_up():
     assert threading.active_count() == 1, "a fork would lack what its locks belong to"
 
 
-def compare_apart(path, processor_s):
+def compare_apart(path, processor_s, logs=True):
     """The same in a fork: a protocol may end its process, never end, or spoil it for the next."""
     reading, writing = os.pipe()
     pid = os.fork()
@@ -258,7 +256,7 @@ def compare_apart(path, processor_s):
             signal.setitimer(signal.ITIMER_PROF, processor_s)
             signal.alarm(20 * processor_s)  # it waits for something
             with stub_sidecar() as (url, keyframes):
-                found = compare(path, url, keyframes)
+                found = compare(path, url, keyframes, logs)
         except Exception:
             found = {"file": path.name, "problems": [traceback.format_exc()]}
         finally:
@@ -274,13 +272,28 @@ def compare_apart(path, processor_s):
     return json.loads(said) if said else {"file": path.name, "problems": [], "own_error": ended}
 
 
-def main(files, processor_s=300):
+def modules_of_the_guard():
+    """The top-level modules that the robot half loads beyond those of ``opentrons``."""
+    before = set(sys.modules)
+    import aegis_ot.adapters.opentrons.instrumentation
+    import aegis_ot.adapters.opentrons.rehearsal
+    import aegis_ot.guard
+    import aegis_ot.guarded_run
+    import aegis_ot.preflight.check_protocol
+    import aegis_ot.runtime
+    import aegis_ot.settings  # noqa: F401
+
+    return sorted({name.partition(".")[0] for name in set(sys.modules) - before})
+
+
+def main(files, processor_s=300, logs=True):
     import opentrons.simulate  # once, before the forks
 
+    modules = modules_of_the_guard()
     warm_up()
-    results = [compare_apart(path, processor_s) for path in map(Path, files)]
+    results = [compare_apart(path, processor_s, logs) for path in map(Path, files)]
     print(json.dumps({"opentrons": opentrons.__version__, "python": sys.version.split()[0],
-                      "protocols": results}))  # fmt: skip
+                      "modules": modules, "protocols": results}))  # fmt: skip
 
 
 if __name__ == "__main__":
@@ -290,5 +303,7 @@ if __name__ == "__main__":
     given = sys.argv[1:]
     if given[0].startswith("--each="):
         main(given[1:], int(given[0].partition("=")[2]))
+    elif given[0] == "--commands":
+        main(given[1:], logs=False)
     else:
         main(given)
