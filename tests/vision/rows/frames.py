@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Container, Iterator, Sequence
 from dataclasses import replace
+from functools import lru_cache
 
 from aegis_ot.simulation import FrameTruth, SessionParameters, SimulatedCamera
 from aegis_ot.vision.camera import Frame
@@ -28,16 +29,31 @@ def keyframes(columns: int) -> Iterator[Keyframe]:
 
 
 def frames(
-    angle: float, faults: Sequence[str] = (), columns: int = 1, seed: int = 2
+    angle: float,
+    faults: Sequence[str] = (),
+    columns: int = 1,
+    seed: int = 2,
+    kinds: Container[KeyframeKind] = tuple(KeyframeKind),
 ) -> Iterator[tuple[Keyframe, Frame, FrameTruth]]:
-    """Each keyframe with its frame, and what that truly shows."""
+    """Each keyframe of these kinds with its frame, and what that truly shows."""
+    for keyframe in keyframes(columns):
+        if keyframe.kind in kinds:
+            yield keyframe, *_drawn(angle, tuple(faults), columns, seed, keyframe.sequence)
+
+
+@lru_cache(maxsize=128)
+def _drawn(
+    angle: float, faults: tuple[str, ...], columns: int, seed: int, sequence: int
+) -> tuple[Frame, FrameTruth]:
+    """Drawn once for all tests: a frame's noise is its own, whatever was drawn before it."""
     camera = SimulatedCamera(seed, faults, SessionParameters.beside(angle, seed))
     camera.expect(keyframes(columns))
     for keyframe in keyframes(columns):
-        camera.announce(keyframe)
-        frame = camera.frame_after(0.0, 5.0)
-        assert camera.truth is not None
-        yield keyframe, frame, camera.truth
+        if keyframe.sequence <= sequence:
+            camera.announce(keyframe)
+    frame = camera.frame_after(0.0, 5.0)
+    assert camera.truth is not None
+    return frame, camera.truth
 
 
 def part_of(keyframe: Keyframe, first: int, last: int) -> Keyframe:

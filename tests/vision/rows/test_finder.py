@@ -15,6 +15,8 @@ from aegis_ot.vocabulary import KeyframeKind
 
 from .frames import frames, keyframes, part_of
 
+TRANSIT = (KeyframeKind.TRANSIT,)
+
 
 @pytest.fixture(scope="module")
 def detector() -> HeatmapDetector:
@@ -34,14 +36,13 @@ def off(seen: SeenRow, truth: FrameTruth) -> float:
 @pytest.mark.parametrize("angle", [0, 30, 45])
 def test_eight_tips_are_found_and_named(detector: HeatmapDetector, angle: float) -> None:
     finder = None
-    for keyframe, frame, truth in frames(angle):
-        if keyframe.kind in FREE:
-            finder = finder or RowFinder(detector, keyframe, "auto")
-            seen = finder.find(frame.image, keyframe)
-            assert (seen.whole, seen.trouble) == (True, "")
-            assert not any(seen.hidden)
-            assert off(seen, truth) < 15  # of a tip 270 px long, an inch from the next
-            assert finder.assumed == (angle == 0)
+    for keyframe, frame, truth in frames(angle, kinds=FREE):
+        finder = finder or RowFinder(detector, keyframe, "auto")
+        seen = finder.find(frame.image, keyframe)
+        assert (seen.whole, seen.trouble) == (True, "")
+        assert not any(seen.hidden)
+        assert off(seen, truth) < 15  # of a tip 270 px long, an inch from the next
+        assert finder.assumed == (angle == 0)
 
 
 @pytest.mark.parametrize(("angle", "size"), [(15, 1.0), (20, 0.5), (30, 0.5)])
@@ -49,17 +50,16 @@ def test_eight_tips_are_found_and_named(detector: HeatmapDetector, angle: float)
 def test_the_first_channel_is_told_from_either_side(
     detector: HeatmapDetector, angle: float, size: float, flipped: bool
 ) -> None:
-    for keyframe, frame, truth in frames(angle, seed=3):
-        if keyframe.kind is KeyframeKind.TRANSIT:
-            image = cv2.flip(frame.image, 1) if flipped else frame.image
-            image = cv2.resize(image, None, fx=size, fy=size, interpolation=cv2.INTER_AREA)
-            finder = RowFinder(detector, keyframe, "auto")
-            seen = finder.find(image, keyframe)
-            assert (seen.whole, finder.assumed) == (True, False)
-            for tip, true in zip(seen.tips, truth.tips, strict=True):
-                assert tip is not None
-                x = frame.image.shape[1] - true.orifice[0] if flipped else true.orifice[0]
-                assert tip.orifice[0] == pytest.approx(size * x, abs=15 * size)
+    ((keyframe, frame, truth),) = frames(angle, seed=3, kinds=TRANSIT)
+    image = cv2.flip(frame.image, 1) if flipped else frame.image
+    image = cv2.resize(image, None, fx=size, fy=size, interpolation=cv2.INTER_AREA)
+    finder = RowFinder(detector, keyframe, "auto")
+    seen = finder.find(image, keyframe)
+    assert (seen.whole, finder.assumed) == (True, False)
+    for tip, true in zip(seen.tips, truth.tips, strict=True):
+        assert tip is not None
+        x = frame.image.shape[1] - true.orifice[0] if flipped else true.orifice[0]
+        assert tip.orifice[0] == pytest.approx(size * x, abs=15 * size)
 
 
 def test_the_ends_of_a_narrow_row_that_is_sure_are_left_where_they_are(
@@ -80,40 +80,36 @@ def test_the_ends_of_a_narrow_row_that_is_sure_are_left_where_they_are(
 
 
 def test_seen_along_the_row_no_tip_can_be_told_apart(detector: HeatmapDetector) -> None:
-    for keyframe, frame, _ in frames(90):
-        if keyframe.kind is KeyframeKind.TRANSIT:
-            seen = RowFinder(detector, keyframe, "auto").find(frame.image, keyframe)
-            assert seen.hidden == (True,) * 8
+    ((keyframe, frame, _),) = frames(90, kinds=TRANSIT)
+    seen = RowFinder(detector, keyframe, "auto").find(frame.image, keyframe)
+    assert seen.hidden == (True,) * 8
 
 
 def test_a_missing_tip_is_missing_and_the_others_keep_their_names(
     detector: HeatmapDetector,
 ) -> None:
-    for keyframe, frame, truth in frames(30, ["no_tip@D1"]):
-        if keyframe.kind is KeyframeKind.TRANSIT:
-            finder = RowFinder(detector, keyframe, "left")
-            seen = finder.find(frame.image, keyframe)
-            assert [tip is None for tip in seen.tips] == [row == "D" for row in "ABCDEFGH"]
-            assert off(seen, truth) < 15
+    ((keyframe, frame, truth),) = frames(30, ["no_tip@D1"], kinds=TRANSIT)
+    finder = RowFinder(detector, keyframe, "left")
+    seen = finder.find(frame.image, keyframe)
+    assert [tip is None for tip in seen.tips] == [row == "D" for row in "ABCDEFGH"]
+    assert off(seen, truth) < 15
 
 
 def test_a_tip_missing_at_an_end_is_not_guessed_in_the_first_column(
     detector: HeatmapDetector,
 ) -> None:
-    for keyframe, frame, _ in frames(0, ["no_tip@H1"]):
-        if keyframe.kind is KeyframeKind.TRANSIT:
-            seen = RowFinder(detector, keyframe, "left").find(frame.image, keyframe)
-            assert "7 of 8 tips" in seen.trouble
+    ((keyframe, frame, _),) = frames(0, ["no_tip@H1"], kinds=TRANSIT)
+    seen = RowFinder(detector, keyframe, "left").find(frame.image, keyframe)
+    assert "7 of 8 tips" in seen.trouble
 
 
 def test_the_first_channel_is_where_the_setting_says(detector: HeatmapDetector) -> None:
-    for keyframe, frame, _ in frames(30):
-        if keyframe.kind is KeyframeKind.TRANSIT:
-            left, right = (
-                RowFinder(detector, keyframe, side).find(frame.image, keyframe).tips
-                for side in ("left", "right")
-            )
-            assert left == right[::-1]
+    ((keyframe, frame, _),) = frames(30, kinds=TRANSIT)
+    left, right = (
+        RowFinder(detector, keyframe, side).find(frame.image, keyframe).tips
+        for side in ("left", "right")
+    )
+    assert left == right[::-1]
 
 
 def test_a_partial_head_is_a_shorter_row(detector: HeatmapDetector) -> None:
