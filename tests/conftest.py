@@ -29,14 +29,27 @@ def _share_rehearsing_processes() -> None:
 _share_rehearsing_processes()
 
 
-LONGEST = ("tests/compat/", "tests/docs/", "tests/lab/", "tests/robot/", "tests/rules/")
-"""What takes longest begins first, so that no process ends long before the others."""
+LONGEST = (
+    "tests/compat/test_matrix.py",
+    "tests/compat/test_extras.py",
+    "tests/cli/test_demo.py",
+    "tests/docs/",
+    "tests/lab/",
+    "tests/robot/",
+    "tests/rules/",
+    "tests/workbench/",
+)
+"""What takes longest begins first, in this order: no process ends long before the others."""
 APART = "tests/compat/test_matrix.py"
 """Its tests take a minute each and share nothing: each may go to another process."""
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    items.sort(key=lambda item: not item.nodeid.startswith(LONGEST))
+    def place(item: pytest.Item) -> int:
+        found = (n for n, start in enumerate(LONGEST) if item.nodeid.startswith(start))
+        return next(found, len(LONGEST))
+
+    items.sort(key=place)
 
 
 @pytest.hookimpl(optionalhook=True)
