@@ -13,9 +13,9 @@ from ..http_client import SLICE_S, CheckStop
 from ..settings import Settings
 from ..vocabulary import Outcome, Verdict, one_line, unobserved
 from .cancellation import CancellationToken
+from .delivery_policy import DeliveryPolicy
 from .descriptions import tell_unobserved, tell_verdict
 from .keyframe_sender import KeyframeSender
-from .link_loss import LinkLossPolicy
 from .operator import LONGEST, Operator, no_news
 from .page_answers import PageAnswers, act_on_current_run
 from .recovering import NO_RECOVERY, RunRecoveries
@@ -38,7 +38,7 @@ class Holding:
 
     Args:
         sender: Speaks to the sidecar.
-        link_loss: What to do when it cannot.
+        delivery: What to do when it cannot.
         settings: Time limits and policies.
         operator: Told of bad verdicts.
         state, waits: Of the run.
@@ -50,7 +50,7 @@ class Holding:
     def __init__(
         self,
         sender: KeyframeSender,
-        link_loss: LinkLossPolicy,
+        delivery: DeliveryPolicy,
         settings: Settings,
         operator: Operator,
         state: RunState,
@@ -62,7 +62,7 @@ class Holding:
         self._recovery = recovery
         self._link = link
         self._sender = sender
-        self._link_loss = link_loss
+        self._delivery = delivery
         self._settings = settings
         self._operator = operator
         self._state = state
@@ -108,7 +108,7 @@ class Holding:
                 deadline += self.obey(number)
             except LinkError:
                 # The same patience as for a keyframe.
-                self._link_loss.insist(self._link_loss.register, number)
+                self._delivery.insist(self._delivery.register, number)
             if verdict is not None:
                 return verdict, "verdict"
             if time.monotonic() - asked < SLICE_S / 2:

@@ -14,24 +14,15 @@ from ..errors import LinkError, SidecarRefused, SidecarUnreachable
 from ..http_client import SLICE_S
 from ..vocabulary import Keyframe, Verdict
 from .outbox import REQUEST_S, Outbox
-from .sidecar_client import CameraSilent, Order, RunUnknown, SequenceGap, SidecarBusy, SidecarClient
+from .retrying import GLANCE_S, Retrying
+from .sidecar_client import Order, RunUnknown, SequenceGap, SidecarClient
 
-_FIRST_TRY_S = 3.0
-"""How long a first try may take before somebody is told that it is tried again, s."""
-_SILENT_S = 1.0
-"""Shorter trouble is not worth a word, s."""
-_FIRST_RETRY_S = 0.1
-_SLOWEST_RETRY_S = 1.0
-_GLANCE_S = 0.25
-"""How long one cheap look for a lost sidecar may take, s."""
 _FIRST_REST_S = 1.0
 _LONGEST_REST_S = 30.0
 _CATCH_UP_S = 1.0
 """How long one missed keyframe may take when a lost sidecar is back, s: its camera may be dead."""
 _POLL_S = 0.15
 _MOST_MENDS = 3
-
-OnTrouble = Callable[[LinkError, float], None]
 
 
 class KeyframeSender:
@@ -46,7 +37,7 @@ class KeyframeSender:
     Attributes:
         run: What the sidecar calls the run; another name where another start has the one it
             came with.
-        on_trouble: Told, during retries, what the trouble is and for how long they go on, s.
+        retrying: Sends what was not taken once more.
         away: Whether the sidecar is given up for now; then only cheap looks are taken.
         stale: Trajectories of which a keyframe was, or will be, sent too late.
         forgotten: Those of them that were sent in time, and that the sidecar lost.
@@ -59,18 +50,16 @@ class KeyframeSender:
         self._link = link
         self.run = run
         self._about = about
-        self._rest = rest
+        self.retrying = Retrying(link, rest, lambda: self.ordered, self._report_outage)
         self._sent: list[Keyframe] = []
         self._pending: deque[Keyframe] = deque()
         self._outbox = Outbox(link, run, self._register)
         self._obeyed: Order | None = None
-        self._lost: tuple[float, str] | None = None
         self._holds = itertools.count()
         self._unheard = False  # a message was not taken; the next keyframe shows who is there
         self._next_look = 0.0
         self._pause_s = _FIRST_REST_S
         self._registered = False
-        self.on_trouble: OnTrouble = lambda error, seconds_left: None
         self.away = False
         self.stale: set[int] = set()
         self.forgotten: set[int] = set()
@@ -91,9 +80,9 @@ class KeyframeSender:
             LinkError: The last trouble, after retries for ``timeout_s``; the rest stays queued.
         """
         try:
-            self._insist(self._send_all, timeout_s)
+            self.retrying.until(self._send_all, timeout_s)
         except SidecarUnreachable as error:
-            raise self._camera_trouble(timeout_s) or error from None
+            raise self.retrying.camera_trouble(timeout_s) or error from None
 
     def move_on(self) -> None:
         """The robot moves on without acknowledgement: what is queued is late now."""
@@ -118,9 +107,9 @@ class KeyframeSender:
         if not self.away or time.monotonic() < self._next_look:
             return not self.away
         try:
-            self._link.health(_GLANCE_S)
+            self._link.health(GLANCE_S)
             self._send_all(time.monotonic() + timeout_s, _CATCH_UP_S)
-            self._note_outage()
+            self.retrying.is_served()
             self._outbox.flush(time.monotonic() + REQUEST_S)
         except LinkError:
             self._pause_s = min(_LONGEST_REST_S, self._pause_s * 2)
@@ -131,7 +120,7 @@ class KeyframeSender:
 
     def register(self, timeout_s: float) -> None:
         """Say which run this is."""
-        self._insist(self._register, timeout_s)
+        self.retrying.until(self._register, timeout_s)
 
     def verdict(self, number: int) -> Verdict | None:
         """Ask once, for 0.15 s at most, for a verdict."""
@@ -174,7 +163,7 @@ class KeyframeSender:
             answered.
         """
         told = self._hold(trajectory, seconds, ended_by, policy) | {"next": then[:200]}
-        self._outbox.hold(told)
+        self._outbox.report("hold", told)
         self._tell()
         return self._answered(told)
 
@@ -195,10 +184,10 @@ class KeyframeSender:
 
         def announce(link: SidecarClient) -> None:
             try:
-                link.report_hold(self.run, told, REQUEST_S)
+                link.report(self.run, "hold", told, REQUEST_S)
             except RunUnknown:  # it is there now, and was not when the run registered
                 self.run = self._outbox.run = link.start(self.run, self._about, REQUEST_S)
-                link.report_hold(self.run, told, REQUEST_S)
+                link.report(self.run, "hold", told, REQUEST_S)
 
         return announce, self._answered(told)
 
@@ -215,19 +204,21 @@ class KeyframeSender:
 
     def _answered(self, told: Mapping[str, Any]) -> Callable[[float, str], None]:
         def answered(paused_s: float, where: str) -> None:
-            self._outbox.hold({**told, "paused_s": round(paused_s, 3), "answered": where})
+            over = {"paused_s": round(paused_s, 3), "answered": where}
+            self._outbox.report("hold", {**told, **over})
             self._tell()
 
         return answered
 
     def report_recovery(self, told: Mapping[str, Any]) -> None:
         """Tell likewise of a recovery."""
-        self._outbox.recovery(told)
+        self._outbox.report("recovery", told)
         self._tell()
 
     def report_difference(self, text: str) -> None:
         """Tell likewise that the run does otherwise than its rehearsal."""
-        self._outbox.difference(text)
+        body = {"kind": "layer1", "seconds": 0.0, "text": text[:1000]}
+        self._outbox.report("incident", body)
         self._tell()
 
     def finish(
@@ -274,58 +265,6 @@ class KeyframeSender:
         except LinkError:
             self._unheard = True
 
-    def _is_there(self, error: LinkError) -> bool:
-        """Whether a sidecar that has not answered yet does answer: then it waits for its camera."""
-        if not isinstance(error, SidecarUnreachable):
-            return False
-        try:
-            self._link.health(_GLANCE_S)
-        except LinkError:
-            return False
-        return True
-
-    def _camera_trouble(self, waited_s: float) -> CameraSilent | None:
-        """Whether the sidecar that captured nothing in time is there, and what it says."""
-        try:
-            camera = self._link.health(_GLANCE_S).get("camera")
-        except LinkError:
-            return None
-        said = str(camera.get("detail", ""))[:400].rstrip(".") if isinstance(camera, dict) else ""
-        return CameraSilent(
-            f"The sidecar at {self._link.url} is there, but took no frame within {waited_s:g} s"
-            f"{f' ({said})' if said else ''}. Look at the camera and at the sidecar's page."
-        )
-
-    def _insist(self, attempt: Callable[[float], None], timeout_s: float) -> None:
-        began = time.monotonic()
-        deadline = began + timeout_s
-        limit = min(deadline, began + _FIRST_TRY_S)
-        wait = _FIRST_RETRY_S
-        answered: LinkError | None = None
-        while True:
-            asked = time.monotonic()
-            try:
-                attempt(limit)
-                self._note_outage()
-                return
-            except SidecarRefused:
-                raise  # asking again changes nothing
-            except LinkError as error:
-                if not isinstance(error, SidecarUnreachable):
-                    answered = error
-                if not isinstance(error, (SidecarBusy, SidecarUnreachable)):
-                    self._note_outage()  # it is there, and says what else is wrong
-                elif self._lost is None and not self._is_there(error):
-                    self._lost = asked, str(error)
-                if self.ordered or time.monotonic() + wait >= deadline:
-                    # The last attempt is often cut short: what was answered before says more.
-                    raise answered or error from None
-                if time.monotonic() - began >= _SILENT_S:
-                    self.on_trouble(answered or error, deadline - time.monotonic())
-                limit = deadline
-                self._rest(wait)
-                wait = min(_SLOWEST_RETRY_S, wait * 2)
-
     def _send_all(self, deadline: float, each_s: float = math.inf) -> None:
         if not self._registered:
             self._register(deadline)
@@ -347,12 +286,9 @@ class KeyframeSender:
             self._sent.append(self._pending.popleft())
             self._unheard = False
 
-    def _note_outage(self) -> None:
-        """The sidecar serves the robot again: the run's report says for how long it did not."""
-        lost, self._lost = self._lost, None
-        if lost is None or (seconds := time.monotonic() - lost[0]) < _SILENT_S:
-            return
-        self._outbox.outage(seconds, lost[1])
+    def _report_outage(self, seconds: float, why: str) -> None:
+        body = {"kind": "link", "seconds": round(seconds, 1), "text": why[:1000]}
+        self._outbox.report("incident", body)
         self._unheard = False
 
     def _close_gap(self, gap: SequenceGap, keyframe: Keyframe) -> None:

@@ -38,21 +38,9 @@ class Outbox:
         """A trajectory is given up."""
         self._messages.append(lambda most: self._link.abandon(self.run, number, reason, most))
 
-    def hold(self, told: Mapping[str, Any]) -> None:
-        """How a hold went."""
-        self._messages.append(lambda most: self._link.report_hold(self.run, told, most))
-
-    def recovery(self, told: Mapping[str, Any]) -> None:
-        """What the robot does by itself about a failed delivery."""
-        self._messages.append(lambda most: self._link.report_recovery(self.run, told, most))
-
-    def outage(self, seconds: float, said: str) -> None:
-        """For how long there was no link, and what was said of it."""
-        self._messages.append(lambda most: self._link.report_outage(self.run, seconds, said, most))
-
-    def difference(self, text: str) -> None:
-        """What the run does otherwise than its rehearsal."""
-        self._messages.append(lambda most: self._link.report_difference(self.run, text, most))
+    def report(self, what: str, body: Mapping[str, Any]) -> None:
+        """A report of :meth:`.SidecarClient.report`."""
+        self._messages.append(lambda most: self._link.report(self.run, what, body, most))
 
     def flush(self, deadline: float) -> None:
         """Send what there is until a moment of ``time.monotonic``, s; the rest stays.

@@ -178,23 +178,11 @@ class SidecarClient:
         """Say that a trajectory will have no further keyframes."""
         self._request("POST", f"{_trajectory(run, number)}/abandon", {"reason": reason}, timeout_s)
 
-    def report_hold(self, run: str, hold: Mapping[str, Any], timeout_s: float) -> None:
-        """Say how long the robot held, and what ended it."""
-        self._request("POST", f"/v1/runs/{quote(run, safe='')}/hold", dict(hold), timeout_s)
-
-    def report_recovery(self, run: str, told: Mapping[str, Any], timeout_s: float) -> None:
-        """Say how the robot puts a failed delivery right, or why it does not."""
-        self._request("POST", f"/v1/runs/{quote(run, safe='')}/recovery", dict(told), timeout_s)
-
-    def report_outage(self, run: str, seconds: float, text: str, timeout_s: float) -> None:
-        """Say that there was no link for so long."""
-        body = {"kind": "link", "seconds": round(seconds, 1), "text": text[:1000]}
-        self._request("POST", f"/v1/runs/{quote(run, safe='')}/incident", body, timeout_s)
-
-    def report_difference(self, run: str, text: str, timeout_s: float) -> None:
-        """Say that the run does otherwise than its rehearsal."""
-        body = {"kind": "layer1", "seconds": 0.0, "text": text[:1000]}
-        self._request("POST", f"/v1/runs/{quote(run, safe='')}/incident", body, timeout_s)
+    def report(self, run: str, what: str, body: Mapping[str, Any], timeout_s: float) -> None:
+        """Report of a run ``"hold"``: how long the robot held, and what ended it; ``"recovery"``:
+        how it puts a failed delivery right, or why it does not; ``"incident"``: for how long there
+        was no link, or what the run does otherwise than its rehearsal."""
+        self._request("POST", f"/v1/runs/{quote(run, safe='')}/{what}", dict(body), timeout_s)
 
     def finish(
         self,

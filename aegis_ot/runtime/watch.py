@@ -17,10 +17,10 @@ from ..http_client import CheckStop
 from ..settings import Settings
 from ..vocabulary import Keyframe, KeyframeKind
 from .cancellation import LAST_WORDS_S, CancellationToken, Stopping
+from .delivery_policy import DeliveryPolicy
 from .descriptions import about_guard, about_run, working_volume
 from .holding import Holding
 from .keyframe_sender import KeyframeSender
-from .link_loss import LinkLossPolicy
 from .objecting import object_to
 from .operator import Operator
 from .page_answers import PageAnswers
@@ -40,7 +40,7 @@ class _Line:
     """What stands between robot and sidecar while a run is watched."""
 
     sender: KeyframeSender
-    loss: LinkLossPolicy
+    delivery: DeliveryPolicy
     holding: Holding
 
 
@@ -114,7 +114,7 @@ class Watcher:
         self._operator.begin()
         self._line = line = self._connect(tap)
         try:
-            self._stoppable(lambda: line.loss.insist(line.loss.register))
+            self._stoppable(lambda: line.delivery.insist(line.delivery.register))
             self._say_name(line)
         except BaseException:
             self._operator.end()
@@ -265,7 +265,7 @@ class Watcher:
         if sender.away and not sender.look(timeout):
             sender.move_on()
             return
-        line.loss.insist(lambda: sender.deliver(timeout), keyframe.trajectory)
+        line.delivery.insist(lambda: sender.deliver(timeout), keyframe.trajectory)
         self._say_name(line)
         line.holding.obey(keyframe.trajectory)
 
@@ -304,7 +304,7 @@ class Watcher:
             return SidecarClient(url, token, check, self._nonce)
 
         sender = KeyframeSender(link(self._waits.check), self.run_id, self._about, self._waits.rest)
-        loss = LinkLossPolicy(
+        delivery = DeliveryPolicy(
             sender,
             self._settings,
             self._operator,
@@ -328,11 +328,11 @@ class Watcher:
             )  # fmt: skip
             self._tracker.mark_recoveries(self._recovery.of_mount)
         holding = Holding(
-            sender, loss, self._settings, self._operator, self._state, self._waits, self.result,
+            sender, delivery, self._settings, self._operator, self._state, self._waits, self.result,
             link, self._recovery,
         )  # fmt: skip
-        loss.obey = holding.obey
-        return _Line(sender, loss, holding)
+        delivery.obey = holding.obey
+        return _Line(sender, delivery, holding)
 
     def _connected(self) -> _Line:
         if self._line is None:

@@ -112,7 +112,7 @@ class Robot:
         """Note what the link hears, and move the robot's clock and picture."""
         told = self.told
         keyframe, verdict = SidecarClient.keyframe, SidecarClient.verdict
-        hold, finish = SidecarClient.report_hold, SidecarClient.finish
+        report, finish = SidecarClient.report, SidecarClient.finish
 
         def sent(link: SidecarClient, frame: Keyframe, *rest: Any) -> Acknowledgement:
             told.triggers.setdefault(frame.sequence, time.monotonic())
@@ -128,16 +128,17 @@ class Robot:
                 told.verdicts.setdefault(number, found.outcome.value)
             return found
 
-        def held(link: SidecarClient, run: str, body: Any, most: float) -> None:
-            hold(link, run, body, most)
-            told.holds.add(body["trajectory"])
+        def reported(link: SidecarClient, run: str, what: str, body: Any, most: float) -> None:
+            report(link, run, what, body, most)
+            if what == "hold":
+                told.holds.add(body["trajectory"])
 
         def ended(link: SidecarClient, run: str, outcome: str, *rest: Any) -> None:
             finish(link, run, outcome, *rest)
             told.finished = outcome
 
         with mock.patch.multiple(
-            SidecarClient, keyframe=sent, verdict=asked, report_hold=held, finish=ended
+            SidecarClient, keyframe=sent, verdict=asked, report=reported, finish=ended
         ):
             yield
 

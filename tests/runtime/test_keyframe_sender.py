@@ -12,7 +12,7 @@ import pytest
 from aegis_ot.errors import SidecarUnreachable
 from aegis_ot.http_client import HttpClient
 from aegis_ot.runtime import keyframe_sender as module
-from aegis_ot.runtime import outbox
+from aegis_ot.runtime import outbox, retrying
 from aegis_ot.runtime.keyframe_sender import KeyframeSender
 from aegis_ot.runtime.sidecar_client import CameraSilent, SidecarClient
 
@@ -154,9 +154,9 @@ def test_a_sidecar_that_is_too_busy_is_named_and_noted(
     status: int, body: object, sidecar: FakeSidecar, sender: KeyframeSender,
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:  # fmt: skip
-    monkeypatch.setattr(module, "_SILENT_S", 0.1)
+    monkeypatch.setattr(retrying, "_SILENT_S", 0.1)
     told: list[str] = []
-    sender.on_trouble = lambda error, left: told.append(str(error))
+    sender.retrying.on_trouble = lambda error, left: told.append(str(error))
     sender.register(60.0)
     sidecar.fault = once("/keyframes", lambda handler: handler.answer(status, body), 2)
     sender.offer(keyframe(0))
@@ -242,8 +242,8 @@ def test_the_end_is_told_where_nothing_else_is_taken(
 def test_a_sidecar_that_waits_for_its_camera_is_no_lost_link(
     sidecar: FakeSidecar, sender: KeyframeSender, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(module, "_SILENT_S", 0.1)
-    monkeypatch.setattr(module, "_FIRST_TRY_S", 0.3)
+    monkeypatch.setattr(retrying, "_SILENT_S", 0.1)
+    monkeypatch.setattr(retrying, "_FIRST_TRY_S", 0.3)
     sender.register(60.0)
     sidecar.fault = fault = Hanging("/keyframes")  # its camera is unplugged; all else is answered
     threading.Timer(0.8, fault.release.set).start()
@@ -269,12 +269,12 @@ class Clock:
 def test_an_outage_ends_when_the_sidecar_says_what_else_is_wrong(
     sidecar: FakeSidecar, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(module, "_SILENT_S", 0.0)
+    monkeypatch.setattr(retrying, "_SILENT_S", 0.0)
     clock = Clock()
     link = SidecarClient(sidecar.url, None, lambda: None)
     sender = KeyframeSender(link, "run", {"run": "run"}, clock.rest)
     sender.register(60.0)
-    for timed in (module, outbox):
+    for timed in (module, outbox, retrying):
         monkeypatch.setattr(timed, "time", clock)
     answers: list[float] = []
 

@@ -232,7 +232,7 @@ def test_a_lost_sidecar_is_told_while_it_is_tried_again(sidecar: FakeSidecar) ->
 def test_a_sidecar_that_is_slow_at_each_keyframe_is_told_of_once(
     sidecar: FakeSidecar, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("aegis_ot.runtime.keyframe_sender._SILENT_S", 0.05)
+    monkeypatch.setattr("aegis_ot.runtime.retrying._SILENT_S", 0.05)
     dropped: Counter[int] = Counter()
 
     def slow(handler: Handler) -> bool:

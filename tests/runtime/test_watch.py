@@ -280,7 +280,7 @@ class TestLinkLoss:
     ) -> None:
         monkeypatch.setattr(keyframe_sender, "_FIRST_REST_S", 0.0)
         monkeypatch.setattr(keyframe_sender, "_LONGEST_REST_S", 0.0)
-        monkeypatch.setattr(keyframe_sender, "_GLANCE_S", 60.0)
+        monkeypatch.setattr(keyframe_sender, "GLANCE_S", 60.0)
         sidecar.fault = once("/keyframes", Handler.drop, times=10_000)
 
         def protocol(context: Any) -> None:

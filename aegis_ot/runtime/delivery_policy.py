@@ -27,7 +27,7 @@ _WHY: dict[type[LinkError], str] = {CameraSilent: "camera", SidecarBusy: "busy"}
 Attempt = Callable[[], None]
 
 
-class LinkLossPolicy:
+class DeliveryPolicy:
     """The policy of one run.
 
     Args:
@@ -66,7 +66,7 @@ class LinkLossPolicy:
         self._result = result
         self._told = self._troubled = False
         self._calm = 0
-        sender.on_trouble = self._tell
+        sender.retrying.on_trouble = self._tell
 
     def register(self) -> None:
         """Say which run this is; raises LinkError."""
