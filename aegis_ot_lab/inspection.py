@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from aegis_ot.account.levels import expected_level, measured_level
-from aegis_ot.account.pictures import close_up, whole_frame
-from aegis_ot.account.scores import band_in, signs_in
-from aegis_ot.account.wells import Box, Inspection, SeenFrame, SeenWell
 from aegis_ot.inspection.choosing import pictured
 from aegis_ot.progress import Progress
+from aegis_ot.run_view.levels import expected_level, measured_level
+from aegis_ot.run_view.pictures import close_up, whole_frame
+from aegis_ot.run_view.scores import band_in, signs_in
+from aegis_ot.run_view.wells import Box, Inspection, SeenFrame, SeenWell
 from aegis_ot.vision.dataset import Dataset, first_normals
 from aegis_ot.vision.types import Scorer, TipDetection, TrajectorySample
 from aegis_ot.vocabulary import KeyframeKind

@@ -32,8 +32,8 @@ from unittest import mock
 
 import numpy as np
 
-from aegis_ot.account import state_of
 from aegis_ot.errors import AegisError, CameraError, SidecarUnreachable
+from aegis_ot.run_view import state_of
 from aegis_ot.runtime import Watcher
 from aegis_ot.runtime import keyframe_sender as sender
 from aegis_ot.runtime.sidecar_client import SidecarClient

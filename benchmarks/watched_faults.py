@@ -23,7 +23,7 @@ from typing import Any
 
 from aegis_ot.cli.robots import exit_code
 from aegis_ot.robot import Analysis, RobotClient
-from aegis_ot.robot.moments import PastLink
+from aegis_ot.robot.keyframe_times import PastLink
 from aegis_ot.robot.run_report import run_report
 from aegis_ot.robot.running import RobotRun
 from aegis_ot.robot.verdicts import VerdictReader

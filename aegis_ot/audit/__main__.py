@@ -12,7 +12,7 @@ from typing import Any
 import cv2
 
 from ..errors import AegisError
-from ..sidecar.opening import open_store
+from ..sidecar.store.opening import open_store
 from ..vision.detection import load_detector
 from .auditing import audit_run
 from .models import world_model

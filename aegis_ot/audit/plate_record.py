@@ -6,9 +6,9 @@ import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
-from ..account import PlateView, plates_of
-from ..account.overview import DeliveryEntry, WellEntry
 from ..errors import ConfigurationError
+from ..run_view import PlateView, plates_of
+from ..run_view.overview import DeliveryEntry, WellEntry
 from ..vision.plate import FORMATS, PlateFormat
 
 Key = tuple[str, str]

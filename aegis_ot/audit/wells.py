@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 
-from ..account.overview import DeliveryEntry
 from ..errors import StoreError
 from ..progress import Progress
+from ..run_view.overview import DeliveryEntry
 from ..sidecar.store import Store
 from ..vision.column_look import Looks
 from ..vision.column_reader import MeasuredColumns

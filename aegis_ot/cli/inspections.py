@@ -71,7 +71,7 @@ def inspect_wells(
 
 
 def _is_store(folder: Path) -> bool:
-    from ..sidecar.opening import is_store
+    from ..sidecar.store.opening import is_store
 
     return is_store(folder)
 
@@ -94,7 +94,7 @@ def _dataset(
 def _run(what: str, run: str | None, most: int, shown: Progress) -> Inspection:
     from ..inspection import inspect_run
     from ..sidecar import SidecarConfig
-    from ..sidecar.opening import open_store
+    from ..sidecar.store.opening import open_store
     from ..sidecar.token_file import known_token
 
     folder = Path(what)

@@ -127,7 +127,7 @@ def qualify(
     _write_protocol(out / _PROTOCOL, plan, settings)
     if simulated:
         from ..qualification.running import run_simulated
-        from ..sidecar.opening import open_store
+        from ..sidecar.store.opening import open_store
 
         folder = out / "run"
         named = run_simulated(plan, folder, plan.seed)

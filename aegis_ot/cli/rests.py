@@ -18,8 +18,8 @@ from .plain_text import echo
 from .runs import DataFolder, known_run, open_data
 
 if TYPE_CHECKING:
-    from ..account.rest import Rest, RestDelivery
     from ..adapters.opentrons.rehearsal import Recording
+    from ..run_view.remaining import Rest, RestDelivery
 
 app = typer.Typer()
 
@@ -64,8 +64,8 @@ def rest(
 
     Exit codes: 0 told, or written; 1 that protocol cannot be written, or has an error.
     """
-    from ..account.plain_protocol import plan_of, rehearsed
-    from ..account.rest import rest_of
+    from ..run_view.plain_protocol import plan_of, rehearsed
+    from ..run_view.remaining import rest_of
     from ..sidecar.overview import run_overview
     from ..workbench.files import read_labware, read_values
 
@@ -110,8 +110,8 @@ def _write(
     path: Path, recording: Recording, left: Rest, again: Sequence[int], fresh_tips: bool
 ) -> int:
     """Write the protocol, if it can be, and Layer 1 has no error in it."""
-    from ..account.finishing import finishing_protocol
-    from ..account.plain_protocol import NotPlain
+    from ..run_view.finishing import finishing_protocol
+    from ..run_view.plain_protocol import NotPlain
     from ..vocabulary import VerdictWord
     from ..workbench.api import checked_protocol
 
@@ -135,7 +135,7 @@ def _write(
 
 
 def _block(left: Rest, protocol: Path | None) -> str:
-    from ..account.finishing import block_of
+    from ..run_view.finishing import block_of
 
     text = block_of(left)
     if protocol is None:

@@ -10,7 +10,7 @@ from rich.console import Console
 from rich.text import Text
 
 from ..robot.running import RobotRun
-from ..robot.shapes import Command
+from ..robot.server_answers import Command
 from ..robot.verdicts import WellVerdict
 from ..vocabulary import Outcome, counted
 from .keys import Keys

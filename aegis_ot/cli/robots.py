@@ -173,7 +173,7 @@ def watch(
 ) -> None:
     """Watch the run on a robot whose protocol carries no guard; waits until one begins."""
     from ..robot import Analysis, RobotClient
-    from ..robot.moments import PastLink
+    from ..robot.keyframe_times import PastLink
     from ..robot.running import RobotRun
     from ..robot.verdicts import VerdictReader
     from ..robot.watching import WatchPolicies, await_run, watch_run

@@ -83,8 +83,8 @@ def show(
     as_json: Annotated[Path | None, typer.Option("--json", help="Write it here, as JSON.")] = None,
 ) -> None:
     """Tell what came of a run, and write its report."""
-    from ..account import run_account
     from ..reports.run_html import report_run, run_report_html
+    from ..run_view import run_account
     from ..sidecar.overview import run_overview
 
     store = open_data(data)
@@ -322,7 +322,7 @@ def _folder(data: Path | None) -> Path:
 
 def open_data(data: Path | None, alone: bool = False) -> Store:
     """The store in a folder, or in the sidecar's usual one."""
-    from ..sidecar.opening import open_store
+    from ..sidecar.store.opening import open_store
 
     return open_store(_folder(data), alone)
 

@@ -10,7 +10,7 @@ from pathlib import Path
 import typer
 
 from ..errors import AegisError
-from ..workbench.reads import signatures
+from ..workbench.files_read import signatures
 from ..workbench.surroundings import NO_SOURCES
 from .plain_text import echo
 

@@ -50,7 +50,7 @@ def fit(
 
     Exit codes: 0 written, 2 nothing could be learned, or the file cannot be written.
     """
-    from ..sidecar.opening import is_store
+    from ..sidecar.store.opening import is_store
     from ..worldmodel.fitting import STORED, fit_model
     from ..worldmodel.limits import FALSE_STOPS, LimitGoal
     from .progress import StageBar

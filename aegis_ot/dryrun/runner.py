@@ -15,7 +15,6 @@ from typing import Any
 
 from pydantic import SecretStr
 
-from ..account.overview import EndEntry, RunOverview
 from ..adapters.opentrons.instrumentation import Operation
 from ..adapters.opentrons.rehearsal import Recording, Script, play
 from ..errors import ConfigurationError, RehearsalError
@@ -23,6 +22,7 @@ from ..guard import guard
 from ..guarding import AHEAD
 from ..preflight.check_protocol import check_recording, errors_of, rejection
 from ..reports.run_html import report_run
+from ..run_view.overview import EndEntry, RunOverview
 from ..runtime.descriptions import about_layer1
 from ..settings import load_settings
 from ..sidecar import Analyser, Judged, RunAnalysis, SidecarConfig, running_sidecar

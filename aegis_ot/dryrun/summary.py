@@ -7,8 +7,9 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from ..account import state_of
-from ..account.overview import (
+from ..reports.run_html import ReportedRun
+from ..run_view import state_of
+from ..run_view.overview import (
     DeliveryEntry,
     KeyframeEntry,
     RunOverview,
@@ -17,7 +18,6 @@ from ..account.overview import (
     verdict_of,
     well_name,
 )
-from ..reports.run_html import ReportedRun
 from ..vocabulary import FailureType, Gate, Outcome, Route, WellRef, from_json, in_few_words
 
 if TYPE_CHECKING:

@@ -174,7 +174,7 @@ def kept_runs(data: Path | None, search: str, most: int) -> list[dict[str, Any]]
 
 def kept_run(data: Path | None, run: str) -> dict[str, Any]:
     """One run's account."""
-    from ..account import run_account
+    from ..run_view import run_account
     from ..sidecar.overview import run_overview
 
     store = _store(data)
@@ -187,7 +187,7 @@ def kept_run(data: Path | None, run: str) -> dict[str, Any]:
 
 def _store(data: Path | None) -> Any:
     from ..sidecar import SidecarConfig
-    from ..sidecar.opening import open_store
+    from ..sidecar.store.opening import open_store
     from ..sidecar.token_file import known_token
 
     return open_store(SidecarConfig.load(find_token=known_token).data if data is None else data)

@@ -10,7 +10,6 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Protocol
 
-from ..account import SeenWell
 from ..adapters.opentrons.instrumentation import Operation, OperationKind
 from ..dryrun import DryRunProgress, DryRunSettings, dry_run
 from ..errors import LinkError
@@ -20,6 +19,7 @@ from ..robot.preparing import Inputs, analyse, refuse_what_is_not_there, take_of
 from ..robot.run_report import run_report
 from ..robot.running import RobotRun, run_analysed
 from ..robot.verdicts import VerdictReader, WellVerdict
+from ..run_view import SeenWell
 from ..sidecar import Judged, make_analyser
 from ..sidecar.config import CascadeSettings
 from ..vocabulary import Outcome

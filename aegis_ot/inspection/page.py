@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections import Counter
 
-from ..account import Inspection, SeenWell
 from ..reports.html_page import html_page
+from ..run_view import Inspection, SeenWell
 
 
 def inspection_html(inspection: Inspection) -> str:

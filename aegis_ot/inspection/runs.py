@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from ..account import Inspection, seen_well, state_of
-from ..account.pictures import cut_pictures
-from ..account.seen import no_pictures
 from ..progress import Progress
+from ..run_view import Inspection, seen_well, state_of
+from ..run_view.delivery_view import no_pictures
+from ..run_view.pictures import cut_pictures
 from ..sidecar.overview import run_overview
 from ..sidecar.store import Store
 from ..worldmodel.recorded import run_source

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from ..account.overview import DeliveryEntry, RunOverview, last_keyframe
 from ..errors import ConfigurationError
 from ..planted import NO_TIP, NORMAL
+from ..run_view.overview import DeliveryEntry, RunOverview, last_keyframe
 from ..sidecar.overview import run_overview
 from ..sidecar.store import Store
 from ..vision.tips import is_flex, pipette_class

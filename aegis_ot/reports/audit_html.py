@@ -6,10 +6,10 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from ..account import PlateView, SeenWell, plates_of, seen_well
-from ..account.overview import RunOverview
-from ..account.pictures import cut_pictures
-from ..account.seen import no_pictures
+from ..run_view import PlateView, SeenWell, plates_of, seen_well
+from ..run_view.delivery_view import no_pictures
+from ..run_view.overview import RunOverview
+from ..run_view.pictures import cut_pictures
 from .html_page import html_page
 from .plate_views import PlateViews
 

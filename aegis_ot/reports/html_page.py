@@ -15,7 +15,7 @@ from .. import __version__
 from ..vocabulary import Gate, KeyframeKind
 
 if TYPE_CHECKING:  # `aegis-ot check` does without numpy and OpenCV
-    from ..account import Level
+    from ..run_view import Level
 
 Filters = Mapping[str, Callable[..., Any]]
 """Functions that a template calls, by name."""

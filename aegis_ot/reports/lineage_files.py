@@ -9,7 +9,7 @@ from collections.abc import Iterator, Mapping
 from datetime import datetime, timezone
 from typing import Any
 
-from ..account.lineage import rows_of
+from ..run_view.lineage import rows_of
 from ..vocabulary import csv_cell
 
 _OF_WELL = ("labware", "label", "slot", "well", "read_order", "state", "still_planned")
@@ -56,7 +56,7 @@ def ro_crate(lineage: Mapping[str, Any], files: Mapping[str, tuple[int, str]]) -
     """The description of a folder that holds a run's lineage.
 
     Args:
-        lineage: See :func:`~aegis_ot.account.lineage.lineage_of`.
+        lineage: See :func:`~aegis_ot.run_view.lineage.lineage_of`.
         files: Size in bytes and SHA-256 of each file beside it, by its path in the folder.
 
     Returns:

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..account import Picture
-from ..account.pictures import close_up, whole_frame
+from ..run_view import Picture
+from ..run_view.pictures import close_up, whole_frame
 from ..vision.plate import FoundPlate
 from ..vision.types import Image
 

@@ -7,10 +7,10 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from ..account import PlateView, SeenWell, plates_of, run_account, seen_well
-from ..account.overview import RunOverview
-from ..account.pictures import cut_pictures
-from ..account.summary import is_flagged
+from ..run_view import PlateView, SeenWell, plates_of, run_account, seen_well
+from ..run_view.overview import RunOverview
+from ..run_view.pictures import cut_pictures
+from ..run_view.summary import is_flagged
 from .html_page import html_page, video_url
 
 MOST_PICTURED = 60
@@ -26,7 +26,7 @@ class ReportedRun:
     """All that a report shows of a run.
 
     Attributes:
-        account: See :func:`~aegis_ot.account.run_account`; the JSON report.
+        account: See :func:`~aegis_ot.run_view.run_account`; the JSON report.
         plates: In the order in which they were filled.
         flagged: Wells that failed, are undecided, or that a person decided, with their frames.
         notes: What else must be said.

@@ -6,6 +6,6 @@ reference; see ``docs/how-to/robot.md`` for what is made of it.
 
 from .address import robot_url
 from .client import RobotClient
-from .shapes import Analysis, Command, Page, Pipette, RunSnapshot
+from .server_answers import Analysis, Command, Page, Pipette, RunSnapshot
 
 __all__ = ["Analysis", "Command", "Page", "Pipette", "RobotClient", "RunSnapshot", "robot_url"]

@@ -14,7 +14,15 @@ import httpx
 from ..errors import RobotError, RobotRefused, RobotUnreachable
 from ..settings import load_settings
 from .address import robot_url
-from .shapes import Analysis, Page, RunSnapshot, read_analysis, read_command, read_run, read_time
+from .server_answers import (
+    Analysis,
+    Page,
+    RunSnapshot,
+    read_analysis,
+    read_command,
+    read_run,
+    read_time,
+)
 
 Values = Mapping[str, Any]
 """Runtime parameters by variable name: numbers, texts, flags."""

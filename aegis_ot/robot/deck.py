@@ -15,7 +15,7 @@ from ..vocabulary.pipette_names import channels_of, largest_volume
 from ..workbench.nozzles import Layout, under
 from .client import RobotClient
 from .following import PATIENCE_S
-from .shapes import Labware, RunSnapshot
+from .server_answers import Labware, RunSnapshot
 
 T = TypeVar("T")
 _AGAIN_S = 0.5

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from ..errors import RobotRefused, RobotUnreachable
 from .client import PAGE, RobotClient
-from .shapes import DONE, Command, RunSnapshot
+from .server_answers import DONE, Command, RunSnapshot
 
 POLL_S = 0.1
 """Sees the end of a command about 70 ms after it; the server feels nothing of it."""

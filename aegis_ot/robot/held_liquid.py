@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from .operations import number_of
-from .shapes import Command, RunSnapshot
+from .server_answers import Command, RunSnapshot
 
 _LEAST_UL = 0.05
 _DROPS = ("dropTip", "dropTipInPlace", "unsafe/dropTipInPlace")

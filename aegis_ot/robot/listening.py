@@ -11,9 +11,9 @@ from ..runtime.steps import Abandon, Capture, Step
 from ..vocabulary import Keyframe, KeyframeKind
 from .clocks import WatchedClock
 from .deck import Deck
-from .moments import moment_before, moment_of_transit
+from .keyframe_times import moment_before, moment_of_transit
 from .operations import OperationReader
-from .shapes import PAUSED, Command
+from .server_answers import PAUSED, Command
 
 _UNKNOWN = 0.0
 """The moment of a keyframe whose time makes no sense: so long ago that it goes as late."""

@@ -20,7 +20,7 @@ from ..vocabulary import WellRef
 from ..workbench.commands import KINDS
 from ..workbench.nozzles import Layout, layout_of, whole_head
 from .deck import Deck
-from .shapes import Command
+from .server_answers import Command
 
 _PROBES = ("liquidProbe", "tryLiquidProbe")
 _NOT_FOUND = "liquidNotFound"

@@ -10,9 +10,9 @@ from typing import Any
 from ..adapters.opentrons.rehearsal import undeclared
 from ..errors import ConfigurationError, RobotError
 from .client import RobotClient, Values
-from .needs import lacking
+from .deck_needs import lacking
 from .offsets import known_offsets, offsets_in_file, tell_offsets
-from .shapes import Analysis
+from .server_answers import Analysis
 
 
 @dataclass

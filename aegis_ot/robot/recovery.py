@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ..errors import RobotError
 from .client import RobotClient
-from .shapes import Command
+from .server_answers import Command
 
 RECOVERING = "awaiting-recovery"
 """Run status in which ``play`` does nothing."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from .._version import __version__
-from ..account import run_account
+from ..run_view import run_account
 from ..vocabulary import to_json
 from .running import RobotRun
 

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from .._version import __version__
-from ..account import RECOVERY
 from ..errors import LinkError, RobotError, RobotRefused, RobotUnreachable
+from ..run_view import RECOVERY
 from ..runtime.keyframe_sender import KeyframeSender
 from ..runtime.steps import Abandon
 from ..vocabulary import Keyframe, KeyframeKind, Outcome
@@ -17,8 +17,8 @@ from .client import RobotClient
 from .clocks import WatchedClock
 from .deck import Deck
 from .following import POLL_S, Completed, Found, Lost, Started, StatusChanged, follow
+from .keyframe_times import PastLink
 from .listening import RunListener, Timed
-from .moments import PastLink
 from .page_pauses import PagePauses
 from .recovery import RECOVERING
 from .running import (
@@ -31,7 +31,7 @@ from .running import (
     Screen,
     tell_open,
 )
-from .shapes import ENDED, PAUSED, RunSnapshot
+from .server_answers import ENDED, PAUSED, RunSnapshot
 from .verdicts import VerdictReader, WellVerdict, unjudged
 
 LOSSES = (

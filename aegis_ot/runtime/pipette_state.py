@@ -6,8 +6,8 @@ from dataclasses import dataclass, field
 
 from ..adapters.opentrons.instrumentation import Operation, OperationKind, PipetteInfo
 from ..vocabulary import WellRef
-from .contents import Contents, DrawnLayer, liquid_of
 from .steps import Trajectory
+from .tip_contents import Contents, DrawnLayer, liquid_of
 
 Place = frozenset[WellRef] | None
 """Wells under the tips; empty for a place without wells; ``None`` if it cannot be known."""

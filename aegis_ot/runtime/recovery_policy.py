@@ -10,9 +10,9 @@ from dataclasses import dataclass
 
 from ..adapters.opentrons.instrumentation import Operation, OperationKind, is_repeatable
 from ..vocabulary import FailureType, Keyframe, Verdict, WellRef
-from .contents import TRACE_UL
 from .pipette_state import in_place, wells_of
 from .strokes import RecordedDelivery
+from .tip_contents import TRACE_UL
 
 EMPTY_MOST = 0.15
 """Share of the volume up to which a tip that was measured counts as empty: the share below which

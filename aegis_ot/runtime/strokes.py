@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 from ..adapters.opentrons.instrumentation import Operation, OperationKind
 from ..vocabulary import Keyframe, KeyframeKind, WellRef
-from .contents import Contents, DrawnLayer, liquid_of
 from .pipette_state import unique, wells_of
+from .tip_contents import Contents, DrawnLayer, liquid_of
 
 _EXPELS = (OperationKind.DISPENSE, OperationKind.BLOW_OUT)
 

@@ -12,12 +12,12 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 
 from ..adapters.opentrons.instrumentation import Event, EventKind, Operation, OperationKind
-from .awaiting import EXPELLING, Awaiting, describe, is_on
-from .contents import DrawnLayer, liquid_of
 from .ledger import Ledger
 from .pipette_state import PipetteState, Place, in_place, unique, wells_of
 from .probes import Probe, Probes, never_asked
 from .steps import Abandon, Capture, Hold, Lift, Step, Trajectory
+from .tip_contents import DrawnLayer, liquid_of
+from .unjudged import EXPELLING, Awaiting, describe, is_on
 
 Capacity = Callable[[Operation], "float | None"]
 

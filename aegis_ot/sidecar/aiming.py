@@ -11,8 +11,8 @@ from dataclasses import dataclass, field
 import cv2
 import numpy as np
 
-from ..account.pictures import whole_frame
 from ..errors import AegisError, CameraError
+from ..run_view.pictures import whole_frame
 from ..vision.camera import Camera, Frame
 from ..vision.detection import load_detector
 from ..vision.types import Detector, Image

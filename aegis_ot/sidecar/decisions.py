@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from ..account.overview import DecisionEntry
+from ..run_view.overview import DecisionEntry
 from ..vocabulary import ChannelOutcome, ChannelVerdict, Gate, Outcome, Verdict
 
 _FLAGGED = (ChannelOutcome.FAIL, ChannelOutcome.UNDECIDED)

@@ -6,16 +6,16 @@ import json
 from pathlib import Path
 from typing import Any
 
-from ..account.lineage import lineage_of
 from ..errors import StoreError
 from ..reports.lineage_files import CRATE, lineage_csv, ro_crate
+from ..run_view.lineage import lineage_of
 from .overview import run_overview
 from .store import Store
 from .store.chain import sha256
 
 
 def lineage_document(store: Store, run: str) -> dict[str, Any]:
-    """See :func:`~aegis_ot.account.lineage.lineage_of`; and under ``record`` the newest hash of the
+    """See :func:`.lineage_of`; and under ``record`` the newest hash of the
     run's chain, its number, and who signed it (``None`` of an older run).
 
     Raises:

@@ -7,7 +7,7 @@ import time
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from ..account.overview import ActionEntry, HoldEntry
+from ..run_view.overview import ActionEntry, HoldEntry
 from .wire import Action, OrderRequest, WireError
 
 Told = dict[str, Any]

@@ -6,9 +6,9 @@ from collections.abc import Iterable, Mapping
 from typing import Any, cast
 from urllib.parse import quote
 
-from ..account import count_wells, plates_of
-from ..account.overview import DecisionEntry, DeliveryEntry, RunOverview
 from ..errors import StoreError
+from ..run_view import count_wells, plates_of
+from ..run_view.overview import DecisionEntry, DeliveryEntry, RunOverview
 from ..vocabulary import (
     Outcome,
     Verdict,

@@ -12,12 +12,12 @@ from fastapi import Path as InPath
 from starlette.concurrency import run_in_threadpool
 from starlette.responses import HTMLResponse, JSONResponse, RedirectResponse, Response
 
-from ..account import run_account
-from ..account.overview import RunOverview
 from ..errors import StoreError
 from ..reports.audit_html import audit_html
 from ..reports.html_page import html_page, shared_file
 from ..reports.run_html import ReportedRun, report_run, run_report_html
+from ..run_view import run_account
+from ..run_view.overview import RunOverview
 from ..vocabulary import Outcome
 from .bodies import read_body
 from .journal import event

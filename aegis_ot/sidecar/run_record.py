@@ -9,8 +9,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from ..account.overview import DecisionEntry
 from ..errors import StoreError
+from ..run_view.overview import DecisionEntry
 from ..vocabulary import Verdict
 from .journal import event
 from .store import Store

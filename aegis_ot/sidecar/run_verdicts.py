@@ -5,7 +5,7 @@ from __future__ import annotations
 import threading
 import time
 
-from ..account.overview import DecisionEntry
+from ..run_view.overview import DecisionEntry
 from ..vocabulary import Keyframe, Outcome, Verdict
 from .analysis import tell_late, undecided
 from .decisions import effective

@@ -17,7 +17,7 @@ from starlette.types import ASGIApp, Receive, Scope, Send
 from .config import SidecarConfig, is_loopback
 from .connections import MOST_AT_ONCE, let_in
 from .journal import event
-from .rates import PER_SECOND, RateLimit
+from .rate_limit import PER_SECOND, RateLimit
 from .wire import WireError
 
 COOKIE = "aegis_ot"

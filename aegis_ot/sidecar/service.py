@@ -9,9 +9,9 @@ import time
 from typing import Any
 
 from .._version import __version__
-from ..account import RECOVERY
-from ..account.overview import RunOverview
 from ..errors import ConfigurationError, StoreError
+from ..run_view import RECOVERY
+from ..run_view.overview import RunOverview
 from ..vision.camera import Camera
 from ..vision.types import Detector
 from ..vision.view import ViewWatch
@@ -25,10 +25,10 @@ from .clips import Clips
 from .config import SidecarConfig
 from .grabbing import Grabber
 from .housekeeping import Housekeeper, Tidied
-from .identity import check_start, kept_apart, name_taken
 from .journal import event
 from .lineage import lineage_document
 from .overview import run_overview, runs_overview
+from .run_names import check_start, kept_apart, name_taken
 from .sessions import LAYER1, OPERATOR, UNSERVED, RunSession
 from .store import Store
 from .webhook import WebHook

@@ -10,8 +10,8 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
-from ..account import RECOVERY
 from ..errors import StoreError
+from ..run_view import RECOVERY
 from ..vision.camera import Frame
 from ..vision.view import ViewWatch
 from ..vocabulary import Keyframe, Outcome, Verdict

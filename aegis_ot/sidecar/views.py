@@ -8,10 +8,10 @@ from functools import lru_cache
 from typing import Any
 from urllib.parse import quote, urlencode
 
-from ..account import Box, Picture, RunView, SeenWell, run_account, run_view, seen_well, state_of
-from ..account.overview import DeliveryEntry, RunOverview
-from ..account.pictures import cut_pictures
-from ..account.plates import short_name
+from ..run_view import Box, Picture, RunView, SeenWell, run_account, run_view, seen_well, state_of
+from ..run_view.overview import DeliveryEntry, RunOverview
+from ..run_view.pictures import cut_pictures
+from ..run_view.plates import short_name
 from .overview import runs_overview
 from .service import Sidecar
 
@@ -40,7 +40,7 @@ class ChosenWell:
 
     Attributes:
         trajectory: Its number in the run.
-        state: See :func:`~aegis_ot.account.state_of`.
+        state: See :func:`~aegis_ot.run_view.state_of`.
         name: In short, ``"C2"``.
         seen: Frames with what was measured.
         entry: The delivery in the run's overview.

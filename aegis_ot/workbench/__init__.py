@@ -10,17 +10,17 @@ from ..lazy import door
 
 if TYPE_CHECKING:
     from .configuration import Configuration, configurations_of, find_configuration
-    from .modelled import Asking
     from .projects import Project, check_files, check_projects
     from .rehearser import Rehearser, TaskFailed
     from .result import Broken, CheckedProtocol, CheckRun, Exploration, Problem
     from .run import CheckSettings
+    from .with_model import Asking
 
 __getattr__ = door(
     __name__,
     {
         "configuration": "Configuration configurations_of find_configuration",
-        "modelled": "Asking",
+        "with_model": "Asking",
         "projects": "Project check_files check_projects",
         "rehearser": "Rehearser TaskFailed",
         "result": "Broken CheckRun CheckedProtocol Exploration Problem",

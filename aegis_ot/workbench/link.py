@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import IO, Any
 
-from .reads import Signature
+from .files_read import Signature
 from .result import Problem
 
 CAN_FORK = sys.platform == "linux"

@@ -21,11 +21,11 @@ from .link import Link, LinkAnswer
 from .problems import PASSED_ON, late
 from .result import Problem
 from .tasks import Task
-from .warm import Joined, join, place_of, seconds_to_keep
+from .warm_process import Joined, join, place_of, seconds_to_keep
 
 _MAIN = """import os, sys
 sys.path[:] = sys.argv.pop(1).split(os.pathsep)
-from aegis_ot.workbench.child import main
+from aegis_ot.workbench.rehearsal_process import main
 main()"""
 # Not `-m`: that puts the working folder first, where a json.py of the user's may lie.
 
@@ -37,7 +37,7 @@ spec = spec_from_file_location("aegis_ot", folder + "/__init__.py",
                                submodule_search_locations=[folder])
 sys.modules["aegis_ot"] = package = module_from_spec(spec)
 spec.loader.exec_module(package)
-from aegis_ot.workbench.child import main
+from aegis_ot.workbench.rehearsal_process import main
 main()"""
 """The same in an engine, which gets this very package and nothing else of this environment."""
 

@@ -24,8 +24,8 @@ from .engines import EngineMissing, engine_for, need_of
 from .exploring import explore
 from .files import as_protocol, read_protocol
 from .guard_arguments import GuardArguments, guard_arguments
-from .modelled import Asking, ask_model
 from .problems import lacks_labware, with_helper
+from .project_waivers import waive, with_stale_waivers
 from .reaching import reaches
 from .rehearser import Rehearser, TaskFailed
 from .result import CheckedProtocol, Problem, with_findings
@@ -33,7 +33,7 @@ from .shelf import Definition, definitions_below, named_in, with_own_values
 from .side_by_side import LazyRehearser, RehearserPool, check_each
 from .surroundings import Placed, Surroundings, root_of, surroundings_of
 from .tasks import CheckWithDossier, Describe, Examined, TimedCheck, TimedReport
-from .waiving import waive, with_stale_waivers
+from .with_model import Asking, ask_model
 
 
 @dataclass(frozen=True)

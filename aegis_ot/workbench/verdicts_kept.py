@@ -13,7 +13,7 @@ import pickle
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
-from .reads import Signature, unchanged
+from .files_read import Signature, unchanged
 
 _MOST = 200
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from ..errors import DatasetError, StoreError
 from ..progress import Progress
-from ..sidecar.opening import open_store
+from ..sidecar.store.opening import open_store
 from ..vision.dataset_writer import DatasetWriter
 from ..vision.tips import tip_for
 from ..vision.types import Detector

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ..errors import ConfigurationError, DatasetError, StoreError
 from ..progress import Progress
 from ..sidecar.analysers import load_scorer
-from ..sidecar.opening import is_store, open_store
+from ..sidecar.store.opening import is_store, open_store
 from ..vision.dataset import Dataset, TrueBoxes, load_dataset
 from ..vision.lab_limits import LabLimits
 from ..vision.models import SHIPPED, ModelFile, save_model

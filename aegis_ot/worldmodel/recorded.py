@@ -9,8 +9,8 @@ from typing import Any
 import cv2
 import numpy as np
 
-from ..account.overview import DeliveryEntry
 from ..errors import ConfigurationError, StoreError
+from ..run_view.overview import DeliveryEntry
 from ..sidecar.overview import run_overview
 from ..sidecar.store import Store
 from ..vision.dataset import LazyDetections
@@ -52,7 +52,7 @@ def recorded_runs(store: Store, detector: Detector, runs: Sequence[str] = ()) ->
     """Runs of a store, oldest first; frames are decoded, and tips found, when asked for.
 
     Args:
-        store: See :func:`~aegis_ot.sidecar.opening.open_store`.
+        store: See :func:`~aegis_ot.sidecar.store.opening.open_store`.
         detector: Finds the tips anew: a store keeps boxes, but no axes.
         runs: Which runs; all if left out.
 

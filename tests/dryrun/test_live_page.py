@@ -10,7 +10,6 @@ from typing import Any
 import httpx
 import pytest
 
-from aegis_ot.account import RunView, run_view
 from aegis_ot.dryrun import (
     DryRun,
     DryRunProgress,
@@ -19,6 +18,7 @@ from aegis_ot.dryrun import (
     read_script,
     watched_page,
 )
+from aegis_ot.run_view import RunView, run_view
 from aegis_ot.vision.camera import Frame
 from aegis_ot.vocabulary import Keyframe
 from tests.sidecar.helpers import StubAnalyser, StubRun

@@ -7,10 +7,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from aegis_ot.account import SeenWell
 from aegis_ot.inspection import inspect_run, inspection_html
 from aegis_ot.inspection.choosing import pictured
-from aegis_ot.sidecar.opening import open_store
+from aegis_ot.run_view import SeenWell
+from aegis_ot.sidecar.store.opening import open_store
 from aegis_ot.vision.dataset import load_dataset
 from aegis_ot.vision.models import SHIPPED, load_model
 from aegis_ot.vision.scorers.ensemble import EnsembleScorer

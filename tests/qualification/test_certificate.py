@@ -17,8 +17,8 @@ from aegis_ot.qualification.opening import open_plan
 from aegis_ot.qualification.page import certificate_html
 from aegis_ot.qualification.plan import make_plan
 from aegis_ot.qualification.running import run_simulated
-from aegis_ot.sidecar.opening import open_store
 from aegis_ot.sidecar.store import Store
+from aegis_ot.sidecar.store.opening import open_store
 from aegis_ot.vision.dataset import load_dataset
 from aegis_ot.vision.detection import HeatmapDetector
 

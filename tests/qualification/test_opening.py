@@ -15,8 +15,8 @@ from aegis_ot.qualification.plan import QualificationPlan, QualifyingDelivery
 from aegis_ot.qualification.protocol import protocol_text
 from aegis_ot.robot.wrapping import wrap
 from aegis_ot.sidecar import SidecarConfig, running_sidecar
-from aegis_ot.sidecar.opening import open_store
 from aegis_ot.sidecar.store import Store
+from aegis_ot.sidecar.store.opening import open_store
 
 from ..sidecar.helpers import StubAnalyser, StubCamera
 

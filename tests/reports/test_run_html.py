@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 from aegis_ot.reports.run_html import report_run, run_report_html
-from tests.account.overviews import delivery, hold, overview, row
+from tests.run_view.overviews import delivery, hold, overview, row
 from tests.sidecar.helpers import make_jpeg
 
 

@@ -11,7 +11,7 @@ from aegis_ot.adapters.opentrons.instrumentation import PipetteInfo
 from aegis_ot.robot import RobotClient
 from aegis_ot.robot.deck import Deck
 from aegis_ot.robot.operations import OperationReader
-from aegis_ot.robot.shapes import Command
+from aegis_ot.robot.server_answers import Command
 from aegis_ot.runtime import Tracker
 from aegis_ot.runtime.steps import Capture
 from aegis_ot.vocabulary import WellRef

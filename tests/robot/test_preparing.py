@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 from aegis_ot.errors import ConfigurationError
-from aegis_ot.robot.needs import Needs, lacking, needs_of
+from aegis_ot.robot.deck_needs import Needs, lacking, needs_of
 from aegis_ot.robot.offsets import known_offsets, offsets_in_file
 from aegis_ot.robot.places import Place
 

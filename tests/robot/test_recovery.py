@@ -12,13 +12,13 @@ import httpx
 import pytest
 from opentrons.protocol_engine.error_recovery_policy import ErrorRecoveryType
 
-from aegis_ot.account import situations
 from aegis_ot.cli import robot_screen
 from aegis_ot.robot import RobotClient
 from aegis_ot.robot.held_liquid import HeldLiquid
-from aegis_ot.robot.moments import PastLink
-from aegis_ot.robot.shapes import Command as RobotCommand
+from aegis_ot.robot.keyframe_times import PastLink
+from aegis_ot.robot.server_answers import Command as RobotCommand
 from aegis_ot.robot.watching import watch_run
+from aegis_ot.run_view import situations
 
 from ..cli.commands import Command
 from ..sidecar.helpers import Robot

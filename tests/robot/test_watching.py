@@ -14,15 +14,15 @@ from typing import Any
 import httpx
 import pytest
 
-from aegis_ot.account import Situation, situations
 from aegis_ot.errors import SidecarUnreachable
 from aegis_ot.robot import Analysis, RobotClient, watching
-from aegis_ot.robot.moments import PastLink, moment_of_transit
+from aegis_ot.robot.keyframe_times import PastLink, moment_of_transit
 from aegis_ot.robot.run_report import run_report
 from aegis_ot.robot.running import RobotRun
-from aegis_ot.robot.shapes import Command as RobotCommand
+from aegis_ot.robot.server_answers import Command as RobotCommand
 from aegis_ot.robot.verdicts import VerdictReader, WellVerdict
 from aegis_ot.robot.watching import LOSSES, WatchPolicies, await_run, watch_run
+from aegis_ot.run_view import Situation, situations
 from aegis_ot.runtime.sidecar_client import Acknowledgement
 from aegis_ot.sidecar import SidecarConfig, running_sidecar
 from aegis_ot.sidecar.analysis import Judged

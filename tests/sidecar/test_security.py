@@ -20,7 +20,7 @@ from aegis_ot.errors import ConfigurationError
 from aegis_ot.sidecar import SidecarConfig, running_sidecar, security
 from aegis_ot.sidecar.config import NotificationSettings
 from aegis_ot.sidecar.journal import set_up
-from aegis_ot.sidecar.rates import RateLimit
+from aegis_ot.sidecar.rate_limit import RateLimit
 from aegis_ot.sidecar.token_file import kept_token
 
 from .helpers import Robot, StubAnalyser, StubCamera

@@ -12,8 +12,8 @@ from typing import Any
 
 import pytest
 
-from aegis_ot.account import run_account
 from aegis_ot.errors import StoreError
+from aegis_ot.run_view import run_account
 from aegis_ot.sidecar import SidecarConfig, running_sidecar
 from aegis_ot.sidecar.app import create_app
 from aegis_ot.sidecar.config import RetentionSettings

@@ -8,9 +8,9 @@ from pathlib import Path
 import httpx
 import pytest
 
-from aegis_ot.account import run_account, state_of
 from aegis_ot.errors import LinkError
 from aegis_ot.robot.verdicts import VerdictReader
+from aegis_ot.run_view import run_account, state_of
 from aegis_ot.sidecar import SidecarConfig, running_sidecar
 from aegis_ot.sidecar.overview import NO_VERDICT, run_overview, runs_overview
 from aegis_ot.sidecar.store import Store

@@ -12,7 +12,7 @@ from aegis_ot.vocabulary import Finding, Severity, Site, VerdictWord, WellRef
 from aegis_ot.workbench import CheckedProtocol, Problem
 from aegis_ot.workbench.baseline import baseline_text, read_baseline
 from aegis_ot.workbench.configuration import ConfiguredWaiver
-from aegis_ot.workbench.waiving import waive, with_stale_waivers
+from aegis_ot.workbench.project_waivers import waive, with_stale_waivers
 
 
 def finding(rule: str, line: int, well: str) -> Finding:

@@ -10,8 +10,8 @@ import pytest
 from aegis_ot.preflight import load_rules
 from aegis_ot.vocabulary import VerdictWord
 from aegis_ot.workbench import CheckedProtocol, CheckSettings, check_files, rehearser
-from aegis_ot.workbench.child import CAN_FORK
 from aegis_ot.workbench.link import LinkAnswer
+from aegis_ot.workbench.rehearsal_process import CAN_FORK
 
 HEAD = 'metadata = {"apiLevel": "2.15"}\n'
 

@@ -12,12 +12,12 @@ from pathlib import Path
 import pytest
 
 from aegis_ot.preflight import Options
-from aegis_ot.workbench.reads import signatures
+from aegis_ot.workbench.files_read import signatures
 from aegis_ot.workbench.rehearser import Rehearser, TaskFailed
 from aegis_ot.workbench.surroundings import Placed
 from aegis_ot.workbench.tasks import TimedCheck
 from aegis_ot.workbench.verdicts_kept import Kept, KeptVerdicts, key_of
-from aegis_ot.workbench.warm import WARM
+from aegis_ot.workbench.warm_process import WARM
 from tests.cli.test_check_command import protocol
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="a fork is not safe elsewhere")

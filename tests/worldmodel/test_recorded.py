@@ -9,8 +9,8 @@ import pytest
 
 from aegis_ot.errors import ConfigurationError, DatasetError, ModelError
 from aegis_ot.sidecar.analysers import load_scorer
-from aegis_ot.sidecar.opening import open_store
 from aegis_ot.sidecar.store import Store
+from aegis_ot.sidecar.store.opening import open_store
 from aegis_ot.sidecar.wire import Decision
 from aegis_ot.vision.dataset import load_dataset
 from aegis_ot.vision.detection import load_detector

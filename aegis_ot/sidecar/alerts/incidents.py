@@ -6,8 +6,8 @@ import threading
 import time
 from dataclasses import dataclass, field
 
-from ...account.overview import IncidentEntry
 from ...errors import StoreError
+from ...run_view.overview import IncidentEntry
 from ..journal import event
 from ..store import Store
 

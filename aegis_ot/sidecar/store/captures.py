@@ -17,8 +17,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import cast
 
-from ...account.overview import KeyframeEntry
 from ...errors import StoreError
+from ...run_view.overview import KeyframeEntry
 from ...vocabulary import Keyframe, from_json, to_json
 from .chain import CLIPS, FRAMES, sha256
 from .database import Database, readable

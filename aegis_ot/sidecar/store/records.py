@@ -7,7 +7,7 @@ import sqlite3
 import time
 from typing import Any, TypeVar, cast
 
-from ...account.overview import ActionEntry, DecisionEntry, HoldEntry, IncidentEntry, RecoveryEntry
+from ...run_view.overview import ActionEntry, DecisionEntry, HoldEntry, IncidentEntry, RecoveryEntry
 from ...vocabulary import Outcome, Route, Verdict, from_json, to_json
 from ..wire import Action, Body, Decision, HoldReport, OrderRequest, RecoveryReport
 from .database import Database, readable

@@ -9,7 +9,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any, cast
 
-from ...account.overview import RunEntry
+from ...run_view.overview import RunEntry
 from ...vision.camera import SIMULATED_KINDS
 from ..wire import Finish, RunStart
 from .database import Database, readable

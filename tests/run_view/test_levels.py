@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from aegis_ot.account.levels import axis_of, expected_level, mark_at, measured_level
+from aegis_ot.run_view.levels import axis_of, expected_level, mark_at, measured_level
 from aegis_ot.vocabulary import KeyframeKind
 
 BOX = (40.0, 0.0, 20.0, 100.0)

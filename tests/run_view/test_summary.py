@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 
-from aegis_ot.account import run_account
+from aegis_ot.run_view import run_account
 
 from .overviews import delivery, hold, overview, row
 

@@ -14,7 +14,7 @@ from dataclasses import replace
 from ..runtime import SidecarClient
 from ..runtime.sidecar_client import Acknowledgement
 from ..vocabulary import Keyframe, KeyframeKind
-from .shapes import Command
+from .server_answers import Command
 
 DESCENT_S = 0.2
 """From the top of a well to where it is dispensed, about, s."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from aegis_ot.account.seen import seen_well
+from aegis_ot.run_view.delivery_view import seen_well
 from aegis_ot.vocabulary import KeyframeKind
 
 from .overviews import delivery

@@ -10,9 +10,9 @@ from ..lazy import door
 
 if TYPE_CHECKING:
     from .answers import RECOVERY, Answer
+    from .delivery_view import seen_well
     from .page_view import RunView, run_view
     from .plates import PlateView, WellView, count_wells, plates_of
-    from .seen import seen_well
     from .situation import Situation, doing, situations
     from .states import state_of
     from .summary import run_account
@@ -24,7 +24,7 @@ __getattr__ = door(
         "answers": "Answer RECOVERY",
         "page_view": "RunView run_view",
         "plates": "PlateView WellView count_wells plates_of",
-        "seen": "seen_well",
+        "delivery_view": "seen_well",
         "situation": "Situation doing situations",
         "states": "state_of",
         "summary": "run_account",

@@ -16,8 +16,8 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
+from .files_read import Reads
 from .link import Link, LinkAnswer
-from .reads import Reads
 from .verdicts_kept import KeptVerdicts
 
 _LOOK_S = 30.0

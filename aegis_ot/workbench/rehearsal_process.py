@@ -19,10 +19,10 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from ..adapters.opentrons.rehearsal import second_clock
-from .lasting import outlive
+from .files_read import Reads, signatures
+from .lasting_process import outlive
 from .link import CAN_FORK, Link, LinkAnswer
 from .problems import problem_of
-from .reads import Reads, signatures
 from .result import Problem
 from .tasks import Task, prepare
 from .verdicts_kept import Kept, KeptVerdicts, key_of

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ..errors import ConfigurationError
-from .store import DATABASE, Store
+from ...errors import ConfigurationError
+from . import DATABASE, Store
 
 
 def is_store(folder: Path) -> bool:

@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from aegis_ot.account.scores import band_in, signs_in
+from aegis_ot.run_view.scores import band_in, signs_in
 from aegis_ot.vocabulary import KeyframeKind
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from aegis_ot.account import plates_of
+from aegis_ot.run_view import plates_of
 
 from .overviews import delivery, overview, row
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from datetime import datetime, timezone
 from typing import Any
 
-from .needs import Needs, needs_of
+from .deck_needs import Needs, needs_of
 from .places import Place, places_of
 
 ENDED = frozenset({"succeeded", "failed", "stopped"})

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from aegis_ot.account import RunView, run_view
+from aegis_ot.run_view import RunView, run_view
 
 from .overviews import delivery, hold, overview, row
 
