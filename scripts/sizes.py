@@ -9,10 +9,10 @@ ROOT = Path(__file__).resolve().parents[1]
 BUDGETS = {
     "aegis_ot": 78_000,
     "aegis_ot_lab": 10_500,
-    "aegis_ot/preflight": 12_400,
+    "aegis_ot/preflight": 11_000,
     "aegis_ot/vision": 13_050,
-    "aegis_ot/sidecar": 9_300,
-    "aegis_ot/runtime": 4_400,
+    "aegis_ot/sidecar": 9_150,
+    "aegis_ot/runtime": 4_140,
 }
 """The aims: 50,000 for ``aegis_ot``, 9,500 for ``preflight``, 9,000 for ``vision``."""
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from pydantic import BaseModel, ConfigDict
+from dataclasses import dataclass
 
 from ..vocabulary import in_few_words
 from .overview import HoldEntry, RunOverview
@@ -12,7 +12,8 @@ RECOVERY = "recovery"
 """Resolution of a pause in which a step that failed waits to be recovered from."""
 
 
-class Answer(BaseModel):
+@dataclass(frozen=True)
+class Answer:
     """One button.
 
     Attributes:
@@ -21,8 +22,6 @@ class Answer(BaseModel):
         causes: What happens then.
         kind: ``"pass"``, ``"fail"``, ``"stop"`` or ``""``.
     """
-
-    model_config = ConfigDict(frozen=True)
 
     words: str
     label: str
@@ -42,29 +41,21 @@ def answers_to_pause(
         outcome: Its verdict as it stands; ``""`` without one.
     """
     then = next_step(overview, hold)
-    stop = Answer(words="stop", label="Stop the run", causes=_stopped(overview), kind="stop")
+    stop = Answer("stop", "Stop the run", _stopped(overview), "stop")
     if hold["resolution"] == RECOVERY:
         again = "the robot does it once more, then goes on"
         return (
-            Answer(words="retry", label="Try that step again", causes=again, kind="pass"),
-            Answer(words="resume", label="Go on after it", causes="the robot does its next step"),
+            Answer("retry", "Try that step again", again, "pass"),
+            Answer("resume", "Go on after it", "the robot does its next step"),
             stop,
         )
     if outcome not in ("fail", "undecided"):
-        return Answer(words="resume", label="Continue", causes=then), stop
+        return Answer("resume", "Continue", then), stop
+    label, verb = ("Continue", "stays") if outcome == "fail" else ("It failed: continue", "is")
+    fine = f"{well} is marked as passed; {then}"
     return (
-        Answer(
-            words="fail resume",
-            label="Continue" if outcome == "fail" else "It failed: continue",
-            causes=f"{well} {'stays' if outcome == 'fail' else 'is'} marked as failed; {then}",
-            kind="fail",
-        ),
-        Answer(
-            words="pass resume",
-            label="It is fine: continue",
-            causes=f"{well} is marked as passed; {then}",
-            kind="pass",
-        ),
+        Answer("fail resume", label, f"{well} {verb} marked as failed; {then}", "fail"),
+        Answer("pass resume", "It is fine: continue", fine, "pass"),
         stop,
     )
 
@@ -77,20 +68,9 @@ def answers_to_question(overview: RunOverview, well: str, fails: str) -> tuple[A
         well: Which well it is about, in short.
         fails: What the robot does with a failed well.
     """
-    return (
-        Answer(
-            words="pass",
-            label="It passed",
-            causes=f"{well} is marked as passed; the robot goes on",
-            kind="pass",
-        ),
-        Answer(
-            words="fail",
-            label="It failed",
-            causes=f"{well} is marked as failed; {fails or 'the robot is told so'}",
-            kind="fail",
-        ),
-    )
+    passed = f"{well} is marked as passed; the robot goes on"
+    failed = f"{well} is marked as failed; {fails or 'the robot is told so'}"
+    return Answer("pass", "It passed", passed, "pass"), Answer("fail", "It failed", failed, "fail")
 
 
 def next_step(overview: RunOverview, hold: HoldEntry) -> str:

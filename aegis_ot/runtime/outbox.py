@@ -36,7 +36,7 @@ class Outbox:
 
     def abandon(self, number: int, reason: str) -> None:
         """A trajectory is given up."""
-        self._messages.append(lambda most: self._link.abandon(self.run, number, reason, most))
+        self.report(f"trajectories/{number}/abandon", {"reason": reason})
 
     def report(self, what: str, body: Mapping[str, Any]) -> None:
         """A report of :meth:`.SidecarClient.report`."""

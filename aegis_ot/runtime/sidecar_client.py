@@ -174,14 +174,11 @@ class SidecarClient:
         action = answer.get("action")
         return str(action.get("action")) if isinstance(action, dict) else None
 
-    def abandon(self, run: str, number: int, reason: str, timeout_s: float) -> None:
-        """Say that a trajectory will have no further keyframes."""
-        self._request("POST", f"{_trajectory(run, number)}/abandon", {"reason": reason}, timeout_s)
-
     def report(self, run: str, what: str, body: Mapping[str, Any], timeout_s: float) -> None:
         """Report of a run ``"hold"``: how long the robot held, and what ended it; ``"recovery"``:
         how it puts a failed delivery right, or why it does not; ``"incident"``: for how long there
-        was no link, or what the run does otherwise than its rehearsal."""
+        was no link, or what the run does otherwise than its rehearsal;
+        ``"trajectories/3/abandon"``: that one will have no further keyframes."""
         self._request("POST", f"/v1/runs/{quote(run, safe='')}/{what}", dict(body), timeout_s)
 
     def finish(

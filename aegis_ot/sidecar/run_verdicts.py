@@ -25,6 +25,10 @@ class RunVerdicts:
         store: Holds those of before a restart.
         judged: The verdicts that it holds.
         operator_timeout: How long an undecided verdict is held back for the operator, s.
+
+    Attributes:
+        measured: The analyser's, by delivery.
+        decisions: What people decided of them, oldest first.
     """
 
     def __init__(
@@ -33,31 +37,19 @@ class RunVerdicts:
         self._run, self._store = run, store
         self._operator_timeout = operator_timeout
         self._lock = threading.Lock()
-        self._verdicts = {verdict.trajectory: verdict for verdict in judged}
-        self._decisions = store.decisions(run)
+        self.measured = {verdict.trajectory: verdict for verdict in judged}
+        self.decisions = store.decisions(run)
         self._late: set[int] = set()
         self._release: dict[int, float] = {}
         self._asks: dict[int, tuple[float, float]] = {}
 
-    def known(self) -> set[int]:
-        """Deliveries that have a verdict."""
-        return set(self._verdicts)
-
-    def of_analyser(self, trajectory: int) -> Verdict | None:
-        """The verdict as it was measured, whatever a person decided."""
-        return self._verdicts.get(trajectory)
-
-    def is_decided(self, trajectory: int) -> bool:
-        """Whether a person decided on it."""
-        return trajectory in self._decisions
-
     def for_robot(self, trajectory: int) -> Verdict | None:
         """The verdict as the robot may see it now; ``None`` while the operator is waited for."""
         with self._lock:
-            verdict = self._verdicts.get(trajectory)
+            verdict = self.measured.get(trajectory)
             if verdict is None or self._is_held_back(trajectory):
                 return None
-            return effective(verdict, self._decisions.get(trajectory, []))
+            return effective(verdict, self.decisions.get(trajectory, []))
 
     def note_question(self, trajectory: int) -> bool:
         """The robot asks for a verdict, again and again while it holds; whether it is the first
@@ -95,7 +87,7 @@ class RunVerdicts:
     def add(self, verdict: Verdict) -> None:
         """An analyser's verdict; an undecided one is first the operator's to see."""
         with self._lock:
-            self._verdicts[verdict.trajectory] = verdict
+            self.measured[verdict.trajectory] = verdict
             if verdict.outcome is Outcome.UNDECIDED and self._operator_timeout > 0:
                 self._release[verdict.trajectory] = time.monotonic() + self._operator_timeout
 
@@ -104,10 +96,10 @@ class RunVerdicts:
         with self._lock:
             self._late.add(keyframe.trajectory)
             self._store.mark_late(self._run, keyframe.sequence)
-            if keyframe.trajectory in self._verdicts:
+            if keyframe.trajectory in self.measured:
                 unseen = undecided(self._run, keyframe.trajectory, tell_late(keyframe.kind))
                 self._store.withdraw_verdict(unseen)
-                self._verdicts[keyframe.trajectory] = unseen
+                self.measured[keyframe.trajectory] = unseen
 
     def decide(
         self, trajectory: int, decision: Decision, analysing: bool
@@ -127,7 +119,7 @@ class RunVerdicts:
             WireError: 409 if there is no verdict yet.
         """
         with self._lock:
-            verdict = self._verdicts.get(trajectory) or self._give_up(trajectory, analysing)
+            verdict = self.measured.get(trajectory) or self._give_up(trajectory, analysing)
             if verdict is None:
                 raise WireError(409, "no_verdict", f"Trajectory {trajectory} has no verdict yet.")
             row: DecisionEntry = {
@@ -136,7 +128,7 @@ class RunVerdicts:
                 "note": decision.note,
                 "at": time.time(),
             }
-            decided_so_far = self._decisions.setdefault(trajectory, [])
+            decided_so_far = self.decisions.setdefault(trajectory, [])
             decided_so_far.append(row)
             return verdict, row, effective(verdict, decided_so_far)
 
@@ -147,12 +139,12 @@ class RunVerdicts:
             if delivery["trajectory"] == trajectory and delivery["unjudged"] is not None:
                 verdict = undecided(self._run, trajectory, delivery["unjudged"])
                 self._store.add_verdict(verdict, {})
-                self._verdicts[trajectory] = verdict
+                self.measured[trajectory] = verdict
                 return verdict
         return None
 
     def _is_held_back(self, trajectory: int) -> bool:
         release = self._release.get(trajectory)
         return (
-            release is not None and trajectory not in self._decisions and time.monotonic() < release
+            release is not None and trajectory not in self.decisions and time.monotonic() < release
         )

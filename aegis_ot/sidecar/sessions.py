@@ -187,7 +187,7 @@ class RunSession:
         """
         with self._state:
             self._known.add(hold.trajectory)
-            verdict = self.verdicts.of_analyser(hold.trajectory)
+            verdict = self.verdicts.measured.get(hold.trajectory)
             unsure = verdict is not None and verdict.outcome is Outcome.UNDECIDED
             if hold.resolution in (OPERATOR, LAYER1, RECOVERY, *UNSERVED):
                 self._orders.taken()
@@ -200,7 +200,7 @@ class RunSession:
         with self._state:
             paused, self._paused = self._paused, set()
         for trajectory in sorted(paused):
-            if not self.verdicts.is_decided(trajectory):
+            if trajectory not in self.verdicts.decisions:
                 self._worker.confirm(trajectory)
 
     def decide(self, trajectory: int, decision: Decision) -> Verdict:
@@ -303,7 +303,7 @@ class RunSession:
 
     def _resume(self) -> None:
         """Queue again what a killed sidecar had kept but not judged."""
-        settled = self.verdicts.known() | self._store.abandoned(self.run).keys()
+        settled = self.verdicts.measured.keys() | self._store.abandoned(self.run).keys()
         for captured in self._store.keyframes(self.run):
             self._known.add(captured.keyframe.trajectory)
             if captured.keyframe.trajectory not in settled:

@@ -54,7 +54,7 @@ def test_a_whole_conversation_on_one_connection(sidecar: FakeSidecar, link: Side
     verdict = link.verdict("run", 0, 0.15, 1.0)
     assert verdict is not None
     assert verdict.outcome is Outcome.PASS
-    link.abandon("run", 1, "dropped", 1.0)
+    link.report("run", "trajectories/1/abandon", {"reason": "dropped"}, 1.0)
     link.finish("run", "succeeded", "", 1.0)
     assert sidecar.abandoned == [1]
     assert sidecar.finished == [{"outcome": "succeeded", "detail": ""}]
