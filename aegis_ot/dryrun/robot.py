@@ -12,9 +12,6 @@ from .summary import WellRow
 class HeardRobot:
     """Hears, below the guard, what the simulated robot really did.
 
-    Args:
-        moves: Told of each operation before it is done.
-
     Attributes:
         operations: All that were done, in order.
         moves: Told likewise.

@@ -62,12 +62,7 @@ class Tool:
 
 
 class ToolServer:
-    """Serves tools until the other side closes.
-
-    Args:
-        tools: What may be called.
-        instructions: What the agent should know of them together.
-    """
+    """Serves tools until the other side closes."""
 
     def __init__(self, tools: Sequence[Tool], instructions: str) -> None:
         self._tools = {tool.name: tool for tool in tools}

@@ -40,13 +40,7 @@ def validate(script: Script) -> Report:
 
 
 class AegisAgent(Agent):
-    """Guards one robot. What its actions take and give are plain JSON values.
-
-    Args:
-        robot: The robot.
-        validator: Its Layer 1.
-        session: Its Layer 2; by default what the robot's entry says.
-    """
+    """Guards one robot. What its actions take and give are plain JSON values."""
 
     def __init__(
         self, robot: RobotConfig, validator: Validator = validate, session: Session | None = None

@@ -159,12 +159,7 @@ class _WatchedProgress(DryRunProgress):
 
 
 class RobotSession:
-    """A real robot through its HTTP API; Layer 2 is its protocol's guard, read from its sidecar.
-
-    Args:
-        robot: With an address.
-        token: Of its sidecar.
-    """
+    """A real robot through its HTTP API; Layer 2 is its protocol's guard, read from its sidecar."""
 
     def __init__(self, robot: RobotConfig, token: str | None = None) -> None:
         assert robot.address is not None

@@ -63,10 +63,6 @@ class VlmGate:
 
     Its pass settles what is merely open. What looks alarming to the scorer it does not clear: the
     operator is told both (``docs/explanation/gates.md``).
-
-    Args:
-        backend: Whom to ask; a recorded one works as well.
-        crop: How the frames are cut.
     """
 
     gate = Gate.VLM

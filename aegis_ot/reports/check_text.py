@@ -48,12 +48,7 @@ _BOLD, _RED, _YELLOW, _BLUE, _CYAN, _GREEN, _DIM = 1, 31, 33, 34, 36, 32, 2
 
 
 def check_text(run: CheckRun, colour: bool = False) -> str:
-    """Render as text.
-
-    Args:
-        run: What was checked.
-        colour: Whether to use ANSI colours.
-    """
+    """Render as text."""
     paint = _Paint(colour)
     names = {rule.id: rule.name for rule in run.rule_set.rules}
     volumes = {

@@ -43,11 +43,7 @@ _KINDS = {
 
 
 def field_page(head: str) -> str:
-    """Every field of a family and of all that it holds: kind, default and meaning.
-
-    Args:
-        head: The page's first line.
-    """
+    """Every field of a family and of all that it holds: kind, default and meaning."""
     sections = (_section(cls, title) for cls, title in _PARTS.items())
     return f"{head}\n{_HEAD}{''.join(sections)}"
 

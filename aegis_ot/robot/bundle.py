@@ -44,12 +44,7 @@ class Bundle:
 
 
 def make_bundle(package: Path = PACKAGE, also: Iterable[str] = ()) -> Bundle:
-    """Pack ``guard`` with all that it imports, the compiled rules among it.
-
-    Args:
-        package: Folder of the package.
-        also: Further modules of it that a protocol imports.
-    """
+    """Pack ``guard`` with all that it imports, the compiled rules among it."""
     files = {name: stripped(text) for name, text in sorted(robot_half(package, also))}
     modules = len(files)
     data = json.dumps(files, ensure_ascii=False, separators=(",", ":")).encode()

@@ -23,11 +23,7 @@ _TRASH = re.compile(r"trash|waste", re.IGNORECASE)
 
 
 class Deck:
-    """Pipettes and labware of one run, asked for as its commands name them.
-
-    Args:
-        robot, run: Whose.
-    """
+    """Pipettes and labware of one run, asked for as its commands name them."""
 
     def __init__(self, robot: RobotClient, run: str) -> None:
         self._robot = robot

@@ -28,13 +28,7 @@ class Timed:
 
 
 class RunListener:
-    """Hears the commands of one run, in order.
-
-    Args:
-        deck: What the run has loaded.
-        name: Of the run, written into each keyframe.
-        clock: The robot's.
-    """
+    """Hears the commands of one run, in order."""
 
     def __init__(self, deck: Deck, name: str, clock: WatchedClock) -> None:
         reader = self._reader = OperationReader(deck)

@@ -29,11 +29,7 @@ _INSIDE_MM = -1.0
 
 
 class OperationReader:
-    """Reads the commands of one run, in order.
-
-    Args:
-        deck: What the run has loaded.
-    """
+    """Reads the commands of one run, in order."""
 
     def __init__(self, deck: Deck) -> None:
         self._deck = deck

@@ -13,9 +13,6 @@ RECOVERING = "awaiting-recovery"
 class Recovery:
     """The acts of one run, as the robot understands them in the state that it is in.
 
-    Args:
-        robot, run: Whose.
-
     Attributes:
         status: Of the run at the last look.
     """

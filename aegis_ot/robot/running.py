@@ -157,11 +157,7 @@ def run_analysed(
 
 
 class RunDriver:
-    """Shows a run, and does with it what the person at the terminal asks.
-
-    Args:
-        robot, run, screen, verdicts: As for :func:`run_analysed`.
-    """
+    """Shows a run, and does with it what the person at the terminal asks."""
 
     def __init__(
         self,

@@ -34,10 +34,6 @@ print("TOLD", json.dumps(told))
 def simulation_s(protocol: Path, name: str) -> float:
     """How long Opentrons' simulator takes for a protocol in a fresh process, itself imported, s.
 
-    Args:
-        protocol: The file.
-        name: Under which it is simulated.
-
     Raises:
         ProtocolRejected: The guard in it refuses it.
         RehearsalError: It does not simulate; with what was said.

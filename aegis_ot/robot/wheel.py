@@ -28,12 +28,7 @@ Tag: py3-none-any
 
 
 def write_wheel(folder: Path, package: Path = PACKAGE) -> Path:
-    """Write the wheel of what runs on a robot; its path.
-
-    Args:
-        folder: Where.
-        package: Folder of the package that it is made of.
-    """
+    """Write the wheel of what runs on a robot; its path."""
     files = {f"aegis_ot/{name}": text for name, text in sorted(robot_half(package, _ALSO))}
     info = f"aegis_ot-{__version__}.dist-info"
     files |= {f"{info}/METADATA": _METADATA, f"{info}/WHEEL": _WHEEL}

@@ -61,13 +61,7 @@ def answers_to_pause(
 
 
 def answers_to_question(overview: RunOverview, well: str, fails: str) -> tuple[Answer, ...]:
-    """Of a verdict that is held back for a person.
-
-    Args:
-        overview: Of the run.
-        well: Which well it is about, in short.
-        fails: What the robot does with a failed well.
-    """
+    """Of a verdict that is held back for a person."""
     passed = f"{well} is marked as passed; the robot goes on"
     failed = f"{well} is marked as failed; {fails or 'the robot is told so'}"
     return Answer("pass", "It passed", passed, "pass"), Answer("fail", "It failed", failed, "fail")

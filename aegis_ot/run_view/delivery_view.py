@@ -26,13 +26,7 @@ def no_pictures(_sequence: int, _box: Box | None) -> tuple[None, None, str]:
 
 
 def seen_well(run: str, entry: DeliveryEntry, pictures: Pictures = no_pictures) -> SeenWell:
-    """Gather one delivery.
-
-    Args:
-        run: Identifier of the run.
-        entry: The delivery in the run's overview.
-        pictures: Where its frames come from.
-    """
+    """Gather one delivery."""
     verdict, last = verdict_of(entry), last_keyframe(entry)
     evidence = entry["evidence"]
     pipette, reagent = str(last.get("pipette", "")), last.get("reagent") or ""

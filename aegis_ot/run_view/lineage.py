@@ -28,10 +28,6 @@ Json = dict[str, Any]
 def lineage_of(overview: RunOverview, hashes: Mapping[int, str]) -> Json:
     """The lineage of each well, as plain JSON.
 
-    Args:
-        overview: Answer of ``GET /v1/runs/{run}``.
-        hashes: SHA-256 of frames, by the number of their keyframes.
-
     Returns:
         ``run`` and what is known of it; ``wells``, plate by plate in the order in which a plate
         reader reads them (A1, A2, ...), each with its ``deliveries``. A well that was planned and

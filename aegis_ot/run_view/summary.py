@@ -23,9 +23,6 @@ ALWAYS = ("run", "title", "protocol", "robot", "robot_name", "api_level", "packa
 def run_account(overview: RunOverview) -> dict[str, Any]:
     """Everything about a run but its pictures.
 
-    Args:
-        overview: Answer of ``GET /v1/runs/{run}``.
-
     Returns:
         ``run``, ``protocol``, ``robot`` and the like; ``frames`` (``"simulated"`` or ``"real"``);
         ``finished``; ``counts`` of wells by state, ``wells`` in all, and of ``deliveries``: a row

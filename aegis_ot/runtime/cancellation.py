@@ -16,11 +16,7 @@ class Stopping(Exception):
 
 
 class CancellationToken:
-    """Asked during every wait of one run whether it is being stopped.
-
-    Args:
-        state: Of the run.
-    """
+    """Asked during every wait of one run whether it is being stopped."""
 
     def __init__(self, state: RunState) -> None:
         self._state = state

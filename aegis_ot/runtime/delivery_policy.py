@@ -75,10 +75,6 @@ class DeliveryPolicy:
     def insist(self, attempt: Attempt, number: int = 0) -> None:
         """Attempt; if that fails, do as the policy says. Returns when the run may go on.
 
-        Args:
-            attempt: What the sidecar has to take.
-            number: Trajectory at which the robot stands meanwhile.
-
         Raises:
             RunAborted: The policy, or the operator, ends the run.
         """

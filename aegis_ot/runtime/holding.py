@@ -195,9 +195,6 @@ class Holding:
     def obey(self, number: int) -> float:
         """Do what a person told the moving robot on the sidecar's page, if anybody did.
 
-        Args:
-            number: Trajectory at which the robot hears of it.
-
         Returns:
             For how long it was paused, s.
 
@@ -220,10 +217,6 @@ class Holding:
 
     def pause(self, number: int, text: str) -> None:
         """Layer 1 has found an error in what comes next: wait for a person, on the page too.
-
-        Args:
-            number: Trajectory at which the robot stands.
-            text: What there is to say.
 
         Raises:
             RunAborted, Stopping: The person ends the run.

@@ -115,10 +115,6 @@ class PageAnswers:
 def act_on_current_run(action: str, headers: Mapping[str, str] | None = None) -> bool:
     """Have the robot's server ``"play"``, ``"pause"`` or ``"stop"`` its current run.
 
-    Args:
-        action: Which.
-        headers: Of the requests, as the settings make them.
-
     Returns:
         Whether it took the order.
     """

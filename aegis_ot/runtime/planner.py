@@ -66,9 +66,6 @@ class Planner:
     def about(self, labware: Mapping[str, LabwareInfo]) -> dict[str, Any]:
         """Plates, labelled tip racks and deliveries for the run's registration (``RunStart`` in
         the wire protocol).
-
-        Args:
-            labware: What is known of each, by key.
         """
         wells = {k.trajectory: k.destinations for k in self.keyframes if k.destinations}
         last = max((keyframe.trajectory for keyframe in self.keyframes), default=-1)

@@ -68,9 +68,6 @@ class Probes:
     Several tips over several wells have a sensor at either end, and the probe ends at the first
     that meets liquid: liquid found is in one well or in the other. No liquid found holds for both.
     Of the wells between nothing is known.
-
-    Args:
-        ask: What a probe said.
     """
 
     def __init__(self, ask: Probe = never_asked) -> None:

@@ -99,13 +99,7 @@ class RunRecoveries:
     def judged(
         self, trajectory: int, verdict: Verdict | None, boundary: Operation | None
     ) -> RecoveryAnswer:
-        """A hold has ended.
-
-        Args:
-            trajectory: Held for.
-            verdict: On it; ``None`` if there is none.
-            boundary: What the protocol does next, if it is free to wait.
-        """
+        """A hold has ended."""
         delivery = self.strokes.delivery(trajectory)
         recovers = None if delivery is None else delivery.keyframe.recovers
         root = trajectory if recovers is None else recovers

@@ -100,9 +100,6 @@ class Aim:
     def look(self, number: int = 0) -> AimedFrame:
         """A fresh frame, measured; several askers take turns.
 
-        Args:
-            number: Of the camera in ``names``.
-
         Raises:
             CameraError: It gives no frame.
             ModelError: The detector cannot be loaded.

@@ -28,11 +28,6 @@ def lineage_document(store: Store, run: str) -> dict[str, Any]:
 def write_lineage(store: Store, run: str, folder: Path) -> int:
     """Write ``lineage.csv``, ``lineage.json``, the frames that there are, and what describes them.
 
-    Args:
-        store: An open store.
-        run: Which run.
-        folder: Of this run alone; made if it is missing.
-
     Returns:
         How many wells there are.
 

@@ -19,10 +19,6 @@ class Orders:
     A stop is a stop: it holds for a robot that moves and for one that is paused, whichever pause it
     was told at, and nothing that is told later takes it back.
 
-    Args:
-        actions: What was told before a restart, oldest first.
-        holds: What the robot did.
-
     Attributes:
         pending: An order that the robot has not taken up: ``action``, ``by``, ``note``, ``at``.
     """

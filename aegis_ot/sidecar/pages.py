@@ -58,11 +58,7 @@ Number = Annotated[int, InPath(ge=0, le=MAX_COUNT)]
 
 
 def page_router(sidecar: Sidecar) -> APIRouter:
-    """All pages of one sidecar.
-
-    Args:
-        sidecar: What they show.
-    """
+    """All pages of one sidecar."""
     router = APIRouter(include_in_schema=False)
     _reading(router, sidecar)
     _reports(router, sidecar)

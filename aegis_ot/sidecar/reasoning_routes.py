@@ -71,11 +71,7 @@ def gates_of(config: SidecarConfig) -> Mapping[str, ConfirmingGate]:
 
 
 def opinion_router(opinions: Opinions) -> APIRouter:
-    """The two routes.
-
-    Args:
-        opinions: Asks and remembers.
-    """
+    """The two routes."""
     router = APIRouter()
 
     @router.post("/v1/opinions")

@@ -185,10 +185,6 @@ def _read_findings(path: Path) -> dict[str, list[Told]]:
 class CorpusTable:
     """Appends to a table and its findings. A context manager.
 
-    Args:
-        path: Of the table; written anew with the rows to keep.
-        kept: Rows to keep.
-
     Raises:
         ConfigurationError: It cannot be written.
     """

@@ -25,12 +25,7 @@ class DesignerStep:
 
 
 def steps_of(file: Mapping[str, Any], commands: list[Mapping[str, Any]]) -> dict[int, DesignerStep]:
-    """The step of each command, by the command's number from 1; those without one are left out.
-
-    Args:
-        file: Of Protocol Designer, or an analysis.
-        commands: That came of it.
-    """
+    """The step of each command, by the command's number from 1; those without one are left out."""
     told = [one for one in file.get("commandAnnotations") or () if isinstance(one, Mapping)]
     designer = (file.get("designerApplication") or {}).get("data") or {}
     ordered = designer.get("orderedStepIds") or ()

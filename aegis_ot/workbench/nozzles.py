@@ -31,12 +31,7 @@ def whole_head(channels: int) -> Layout:
 
 
 def layout_of(params: Mapping[str, Any], channels: int) -> Layout:
-    """What ``configureNozzleLayout`` leaves at work.
-
-    Args:
-        params: The command's ``configurationParams``.
-        channels: Nozzles of the whole head.
-    """
+    """What ``configureNozzleLayout`` leaves at work."""
     whole = whole_head(channels)
     style, primary = str(params.get("style", "ALL")), str(params.get("primaryNozzle", ""))
     if primary not in whole.nozzles:

@@ -19,10 +19,6 @@ def roles_template(checked: CheckedProtocol, rule_set: RuleSet) -> str:
     """A decorator with every role of the families that apply: filled with what is known, each entry
     with its evidence; what nothing names stands in comments below.
 
-    Args:
-        checked: The protocol.
-        rule_set: The rules, for the roles of its families.
-
     Raises:
         ConfigurationError: It could not be judged, so nothing of its roles is known.
     """

@@ -30,9 +30,6 @@ def processors() -> int:
 class LazyRehearser:
     """Rehearsers, one for each engine, started when the first readable file needs them.
 
-    Args:
-        rules: Paths of further rules, loaded ahead.
-
     Attributes:
         cancelled: Set once it does nothing more.
     """

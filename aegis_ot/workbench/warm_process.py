@@ -68,12 +68,7 @@ def place_of(environment: Mapping[str, str], python: Sequence[str]) -> Path | No
 
 
 class Joined:
-    """One caller's part of a process that serves several.
-
-    Args:
-        connection: The socket to it.
-        stacks: File for the stacks of a task that dies.
-    """
+    """One caller's part of a process that serves several."""
 
     def __init__(self, connection: socket.socket, stacks: Path) -> None:
         self._connection = connection

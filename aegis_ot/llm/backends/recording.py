@@ -30,10 +30,6 @@ _KEPT = {State.ANSWERED, State.REFUSED, State.TRUNCATED, State.INVALID}
 class RecordingBackend:
     """Asks another backend, and keeps what was asked and answered.
 
-    Args:
-        backend: Who answers.
-        folder: Where to keep it; made if missing.
-
     Raises:
         ConfigurationError: The folder cannot be written.
     """

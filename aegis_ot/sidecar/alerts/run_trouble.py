@@ -20,12 +20,7 @@ WHAT = {"store": "the store is in trouble", "model": "the vision model does not 
 
 
 class RunTrouble:
-    """Knows which trouble lasts, so that its end is told once.
-
-    Args:
-        run: Identifier of the run.
-        alerts: Told of all.
-    """
+    """Knows which trouble lasts, so that its end is told once."""
 
     def __init__(self, run: str, alerts: Alerts) -> None:
         self._run = run
@@ -61,9 +56,6 @@ class RunTrouble:
 
         Each is held against its own machine's running time: how long a keyframe was under way
         says nothing about clocks.
-
-        Args:
-            keyframe: With the robot's clocks.
         """
         told = {"workstation": (time.time(), time.monotonic())}
         if keyframe.robot_time and keyframe.robot_uptime:

@@ -20,9 +20,6 @@ class PatternSource:
     """Frames of 640x480 px at a fixed rate, a bar moving through them. Not a pipette.
 
     A frame is exposed for :data:`EXPOSURE` seconds and handed out at the end of it.
-
-    Args:
-        fps: Frames per second.
     """
 
     def __init__(self, fps: float = 30.0) -> None:

@@ -14,9 +14,6 @@ FRAMES = "frames"
 class FrameFiles:
     """Frames under one data folder.
 
-    Args:
-        folder: The data folder; made if it is missing.
-
     Every method raises OSError if the disk does not play along.
     """
 

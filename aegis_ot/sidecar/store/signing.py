@@ -19,9 +19,6 @@ KEY_FILE = "signing.key"
 class Signer:
     """Signs with the key of a data folder; one is made the first time.
 
-    Args:
-        folder: The data folder.
-
     Raises:
         StoreError: The key cannot be read or written.
     """
