@@ -4,7 +4,8 @@ import json
 
 import pytest
 
-from aegis_ot.sidecar.wire import WireError, parse
+from aegis_ot.sidecar.bodies import parse
+from aegis_ot.sidecar.wire import WireError
 from aegis_ot.vocabulary import (
     ChannelOutcome,
     ChannelVerdict,

@@ -194,7 +194,7 @@ def _store(data: Path | None) -> Any:
 
 
 class StartedRuns:
-    """Runs that were started here. Each is followed by ``aegis-ot run``, in a process of its own."""
+    """Runs that were started here, each followed by an ``aegis-ot run`` of its own."""
 
     def __init__(self, robots: Sequence[str]) -> None:
         self._robots = robots

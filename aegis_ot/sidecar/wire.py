@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-import dataclasses
-import functools
-import math
-from collections.abc import Callable
-from typing import Annotated, Any, Literal, TypeVar
+from typing import Annotated, Any, Literal
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, Field, TypeAdapter, ValidationError
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 
-from ..vocabulary import Keyframe, Outcome, one_line, to_json
+from ..vocabulary import Outcome, one_line
 
 WIRE = 1
 MAX_BODY = 64 * 1024
@@ -20,7 +16,6 @@ MAX_COUNT = 10_000_000
 MAX_WAIT = 1.0
 """Longest wait of one request for a verdict, s."""
 
-T = TypeVar("T")
 Count = Annotated[int, Field(ge=0, le=MAX_COUNT)]
 Word = Annotated[str, Field(max_length=200), AfterValidator(one_line)]
 """A name: one line that can be shown anywhere."""
@@ -243,61 +238,6 @@ class OrderRequest(Body):
     action: Literal["pause", "stop"]
     by: Person
     note: Text = ""
-
-
-@functools.cache
-def _adapter(shape: Any) -> TypeAdapter[Any]:
-    """Building one takes milliseconds, using it microseconds."""
-    return TypeAdapter(shape)
-
-
-def parse(shape: Callable[..., T], body: bytes) -> T:
-    """Read ``body`` as ``shape``, a pydantic model or a standard dataclass. Strict: no coercion.
-
-    Raises:
-        WireError: 422, naming every member that is wrong.
-    """
-    try:
-        value: T = _adapter(shape).validate_json(body, strict=True)
-    except ValidationError as error:
-        problems = [
-            f"{'.'.join(str(part) for part in p['loc']) or 'body'}: {p['msg']}"
-            for p in error.errors(include_url=False, include_input=False, include_context=False)
-        ]
-        shown = "; ".join(problems[:5])
-        raise WireError(
-            422, "body", f"The body is not a valid {shape.__name__}: {shown}."
-        ) from None
-    if dataclasses.is_dataclass(value):
-        _require_finite(shape.__name__, to_json(value))
-    if isinstance(value, Keyframe):
-        _check_keyframe(value)
-    return value
-
-
-def _require_finite(name: str, value: Any, path: str = "") -> None:
-    if isinstance(value, float) and not math.isfinite(value):
-        raise WireError(422, "body", f"{name}.{path} is not a finite number.")
-    if isinstance(value, dict):
-        for key, item in value.items():
-            _require_finite(name, item, f"{path}.{key}" if path else str(key))
-    if isinstance(value, list):
-        for item in value:
-            _require_finite(name, item, path)
-
-
-def _check_keyframe(keyframe: Keyframe) -> None:
-    for name in ("sequence", "trajectory"):
-        if not 0 <= getattr(keyframe, name) <= MAX_COUNT:
-            raise WireError(422, "body", f"Keyframe.{name} must be from 0 to {MAX_COUNT}.")
-    for name in ("commanded_ul", "expected_ul", "capacity_ul"):
-        if getattr(keyframe, name) < 0:
-            raise WireError(422, "body", f"Keyframe.{name} must not be negative.")
-    if not 1 <= keyframe.channels <= 384:
-        raise WireError(422, "body", "Keyframe.channels must be from 1 to 384.")
-    for name in ("nozzles", "targets", "channels_found"):
-        if len(getattr(keyframe, name)) not in (0, keyframe.channels):
-            raise WireError(422, "body", f"Keyframe.{name} must be empty, or one per channel.")
 
 
 def check_run(run: str) -> str:
