@@ -51,7 +51,8 @@ class WireError(Exception):
 class Body(BaseModel):
     """Base of request bodies. Unknown members are ignored: an older sidecar, a newer robot."""
 
-    model_config = ConfigDict(frozen=True, allow_inf_nan=False)
+    # Built when first used: to list runs, none is.
+    model_config = ConfigDict(frozen=True, allow_inf_nan=False, defer_build=True)
 
 
 class GuardWords(Body):
