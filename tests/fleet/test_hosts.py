@@ -84,7 +84,7 @@ def exchange(request: pytest.FixtureRequest) -> Iterator[str]:
 def robots(tmp_path: Path, exchange: str) -> Path:
     path = tmp_path / "fleet.toml"
     path.write_text(
-        f'exchange = "{exchange}"\ndead_after_s = 2\n'
+        f'exchange = "{exchange}"\ndead_after_s = 60\n'
         '[[robot]]\nname = "here"\npipettes = {left = "p300_single_gen2"}\n'
         '[[robot]]\nname = "there"\nremote = true\npipettes = {left = "p1000_single_gen2"}\n'
         '[[robot]]\nname = "spare"\npipettes = {left = "p1000_single_gen2"}\n'
@@ -125,6 +125,7 @@ def test_two_hosts_run_one_fleet(
 def test_a_host_that_dies_loses_nothing_that_had_not_begun(
     robots: Path, protocols: list[Path]
 ) -> None:
+    robots.write_text(robots.read_text().replace("dead_after_s = 60", "dead_after_s = 6"))
     config = FleetConfig.load(robots, {})
     jobs = [read_job(path) for path in protocols]
 

@@ -74,7 +74,7 @@ def repo(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def checked(repo: Path) -> dict[str, CheckedProtocol]:
     """All of them, checked in one call."""
     files = protocols_named([repo])
-    run = check_files(files, CheckSettings(timeout_s=3.0), load_rules())
+    run = check_files(files, CheckSettings(timeout_s=60), load_rules())
     return {Path(one.file).stem: one for one in run.protocols}
 
 
