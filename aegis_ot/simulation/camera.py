@@ -10,6 +10,7 @@ import threading
 import time
 import zlib
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
 
 import numpy as np
 
@@ -163,7 +164,7 @@ class SimulatedCamera:
         contents = self._state.contents
         source = keyframe.sources[0].name if keyframe.sources else "A1"
         destination = keyframe.destinations[0].name if keyframe.destinations else source
-        return place_tip(
+        scene = place_tip(
             self.parameters,
             keyframe.kind,
             tip_for(keyframe.pipette, keyframe.capacity_ul),
@@ -173,6 +174,7 @@ class SimulatedCamera:
             destination=destination,
             transit_over="destination" if keyframe.destinations else "source",
         )
+        return replace(scene, tip_name=keyframe.tip)
 
 
 def _colours(given: Mapping[str, Dye | str]) -> dict[str, Dye]:

@@ -24,7 +24,8 @@ class TipPatch:
         sees_down: Sine of the angle at which the camera looks down on the tip.
         hidden_below: Height above the orifice below which labware hides the tip, mm.
         under: Colour of the labware under the tip, grey levels (B, G, R).
-        scatter: Random numbers for beads and drops, fixed per tip and well.
+        beads: Random numbers for beads, fixed per tip and what it holds.
+        wear: Random numbers for specks, fixed per tip: they tell nothing of what it holds.
     """
 
     across: Plane
@@ -33,7 +34,8 @@ class TipPatch:
     sees_down: float
     hidden_below: float
     under: tuple[float, float, float]
-    scatter: np.random.Generator
+    beads: np.random.Generator
+    wear: np.random.Generator
 
 
 def column_edges(tip: TipGeometry, content: TipContent) -> tuple[tuple[float, float], ...]:
@@ -93,10 +95,10 @@ def specks(view: TipPatch, tip: TipGeometry, p: SessionParameters) -> Plane:
     total = np.zeros_like(view.across)
     if p.specks <= 0:
         return total
-    for _ in range(int(view.scatter.poisson(p.specks))):
-        at = view.scatter.uniform(0.0, tip.free_mm)
-        side = view.scatter.uniform(-0.9, 0.9) * float(tip.inner_radius(at))
-        size = view.mm_per_px * view.scatter.uniform(0.4, 0.9)
+    for _ in range(int(view.wear.poisson(p.specks))):
+        at = view.wear.uniform(0.0, tip.free_mm)
+        side = view.wear.uniform(-0.9, 0.9) * float(tip.inner_radius(at))
+        size = view.mm_per_px * view.wear.uniform(0.4, 0.9)
         away = ((view.along - at) ** 2 + (view.across - side) ** 2) / size**2
-        total += np.float32(view.scatter.uniform(0.2, 1.2)) * np.exp(-away / 2)
+        total += np.float32(view.wear.uniform(0.2, 1.2)) * np.exp(-away / 2)
     return np.asarray(total, np.float32)

@@ -150,9 +150,8 @@ def _draw(
             sees_down=float(-camera.forward[2]),
             hidden_below=hidden_below,
             under=_under(state, parameters),
-            scatter=np.random.default_rng(
-                (parameters.seed, channel, zlib.crc32(repr(state.contents[channel]).encode()))
-            ),
+            beads=_scatter(parameters, channel, f"{state.contents[channel]!r}{state.tip_name}"),
+            wear=_scatter(parameters, channel, state.tip_name),
         )
         scene[y0:y1, x0:x1] = shade_tip(
             scene[y0:y1, x0:x1], view, tip, content, state.dye, parameters
@@ -163,6 +162,10 @@ def _draw(
     return truth, (
         min(patch[0], box[0]), min(patch[1], box[1]), max(patch[2], box[2]), max(patch[3], box[3])
     )  # fmt: skip
+
+
+def _scatter(parameters: SessionParameters, channel: int, what: str) -> np.random.Generator:
+    return np.random.default_rng((parameters.seed, channel, zlib.crc32(what.encode())))
 
 
 def _as_seen(

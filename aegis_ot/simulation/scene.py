@@ -61,6 +61,7 @@ class SceneState:
         rim_z: Height below which labware hides the tip, mm; ``None`` if nothing hides it.
         pitch: Step from one channel to the next (x, y), mm.
         row: Row of wells, which shifts the true volume a little (see ``row_offset``).
+        tip_name: Which tip it is: each has specks of its own, whatever it holds.
     """
 
     kind: KeyframeKind
@@ -71,6 +72,7 @@ class SceneState:
     rim_z: float | None = None
     pitch: tuple[float, float] = (0.0, -9.0)
     row: str = ""
+    tip_name: str = ""
 
 
 RAISE_MM = 26.0

@@ -156,9 +156,9 @@ def _film_path(
     area = max(2 * np.pi * float(tip.inner_radius(top / 2)) * top, 1e-3)
     spread = _step(top - view.along, 1.5) * (view.along > low)
     path = 2 * 0.6 * content.film_ul / area * spread
-    for _ in range(int(view.scatter.integers(1, 5))):
-        at = view.scatter.uniform(low, max(top, low + 1e-3))
-        side = view.scatter.uniform(-0.8, 0.8) * float(tip.inner_radius(at))
+    for _ in range(int(view.beads.integers(1, 5))):
+        at = view.beads.uniform(low, max(top, low + 1e-3))
+        side = view.beads.uniform(-0.8, 0.8) * float(tip.inner_radius(at))
         bare = content.film_ul * (top - low) / max(top, 1e-3)
         size = float(np.cbrt(0.4 * bare / 5 * 3 / (4 * np.pi))) + 0.05
         away = ((view.along - at) ** 2 + (view.across - side) ** 2) / size**2

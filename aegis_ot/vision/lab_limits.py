@@ -2,12 +2,13 @@
 
 The shipped limits hold before any camera, so they are wide. A laboratory that has seen its own
 camera's normal wells and failures may draw its own: a weight for each reading of a well, and a
-limit for their sum, by kind of tip and liquid (:mod:`aegis_ot.worldmodel.limits` fits them).
+limit for their sum, by kind of tip and liquid (:mod:`aegis_ot.worldmodel.limits` fits them). What
+was left in the tip and what was drawn wrongly show in different readings: each has its own limit.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -41,6 +42,16 @@ as shares of the volume; how far rows speak for liquid left; how far a stretch o
 change as it leaves; whether it is seen to leave. Then the scorer's signs, and how dry the rows are
 in transit and how wet after the dispense, below heights of the full column. More is worse."""
 
+_EITHER = ("unshown", "patches")
+AFTER = (
+    "left", "excess", "retained", "undelivered", *_EITHER,
+    *(name for name in READINGS if name.startswith("wet")),
+)  # fmt: skip
+"""Those that speak of liquid left in the tip."""
+
+LOADED = tuple(name for name in READINGS if name not in AFTER or name in _EITHER)
+"""Those that speak of what was drawn."""
+
 _MOST = 4.0
 """Spreads from the usual beyond which a reading says no more."""
 
@@ -72,26 +83,28 @@ class LabLimit:
 class LabLimits:
     """All limits of a laboratory, by class of tip and liquid."""
 
-    def __init__(self, limits: Mapping[tuple[str, str], LabLimit]) -> None:
+    def __init__(self, limits: Mapping[tuple[str, str], Sequence[LabLimit]]) -> None:
         self.limits = dict(limits)
 
     def beyond(self, case: GateInput, wet: Mapping[KeyframeKind, tuple[float, ...]]) -> float:
-        """How far a well is beyond its liquid's limit, log odds; 0 or less: it is not, or there is
-        no limit for this liquid."""
-        limit = self.limits.get(limit_key(case.sample))
-        if limit is None:
+        """How far a well is beyond any of its liquid's limits, log odds; 0 or less: it is not, or
+        there is no limit for this liquid."""
+        limits = self.limits.get(limit_key(case.sample))
+        if not limits:
             return 0.0
-        return float(limit.log_odds(readings_of(case, wet)[None])[0]) - limit.limit
+        told = readings_of(case, wet)[None]
+        return max(float(limit.log_odds(told)[0]) - limit.limit for limit in limits)
 
     def to_arrays(self) -> tuple[dict[str, NDArray[Any]], dict[str, Any]]:
         """Arrays and settings for a model file."""
         arrays: dict[str, NDArray[Any]] = {}
-        for number, limit in enumerate(self.limits.values()):
+        several = [(key, limit) for key, limits in self.limits.items() for limit in limits]
+        for number, (_, limit) in enumerate(several):
             rows = np.stack([limit.weights, limit.usual, limit.spread], axis=1)
             arrays[f"lab/{number}"] = np.vstack([rows, [limit.bias, limit.limit, 0.0]])
         if not arrays:
             return {}, {}
-        return arrays, {"lab": {"readings": READINGS, "of": [list(key) for key in self.limits]}}
+        return arrays, {"lab": {"readings": READINGS, "of": [list(key) for key, _ in several]}}
 
     @classmethod
     def from_model(cls, model: ModelFile) -> LabLimits:
@@ -105,7 +118,7 @@ class LabLimits:
             return cls({})
         try:
             same = list(told["readings"]) == list(READINGS)
-            limits = {}
+            limits: dict[tuple[str, str], list[LabLimit]] = {}
             for number, (tip, liquid) in enumerate(told["of"]):
                 table = np.asarray(model.arrays[f"lab/{number}"], dtype=np.float64)
                 if same and table.shape != (len(READINGS) + 1, 3):
@@ -113,7 +126,7 @@ class LabLimits:
                 rows, (bias, limit, _) = table[:-1].T, table[-1]
                 weights, usual, spread = rows
                 known = LabLimit(weights, usual, spread, float(bias), float(limit))
-                limits[str(tip), str(liquid)] = known
+                limits.setdefault((str(tip), str(liquid)), []).append(known)
         except (KeyError, TypeError, ValueError) as error:
             raise ModelError(f"the model's limits lack or garble {error}; fit it anew") from error
         if not same:

@@ -1,8 +1,9 @@
 """A laboratory's own limits, fitted on its normal wells and the failures that it planted.
 
 Few dozen wells teach few numbers: a logistic regression with weights of at least 0 (more of a
-reading is never good news), drawn towards none (ridge). Every well is then judged by a fit of the
-others, so that limit and report rest on no well that taught its own weights.
+reading is never good news), drawn towards none (ridge). What stayed in the tip and what was drawn
+wrongly are told from normal wells apart, each by the readings that speak of it. Every well is then
+judged by a fit of the others, so that limit and report rest on no well that taught its own weights.
 """
 
 from __future__ import annotations
@@ -15,18 +16,18 @@ from dataclasses import asdict, dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import minimize
-from scipy.stats import binom
+from scipy.stats import binom, t
 
 from ..vision.gates import GateInput
-from ..vision.lab_limits import LabLimit, LabLimits, limit_key, readings_of
+from ..vision.lab_limits import AFTER, LOADED, READINGS, LabLimit, LabLimits, limit_key, readings_of
 from ..vocabulary import KeyframeKind
 from .cascade import JudgedWell, run_cascade
 from .leave_one_out import HeldOut
 
 Array = NDArray[np.float64]
 
-ENOUGH = 10
-"""Normal wells, and failures, from which limits are fitted."""
+ENOUGH, ENOUGH_ALIKE = 10, 4
+"""Normal wells, and failures, from which limits are fitted, and failures of one part of it."""
 
 PLATE = 96
 FALSE_STOPS = 1.0
@@ -37,11 +38,12 @@ CAUGHT = 0.9
 
 _RIDGES = (1.0, 3.0, 10.0)
 _LEAST_SPREAD = 0.05
-_BY_CHANCE = 0.05
-"""Failures beyond the limit by chance: where no more are for certain, the readings tell nothing."""
+_CERTAIN = 0.05
+"""Where failures are beyond the limit no more often than normal wells may be, unless by a chance
+smaller than this, the readings tell nothing."""
 
-_PRIOR_WELLS, _PRIOR_SCALE = 4.0, 1.0
-"""How many normal wells above their median the usual scale of their tail is worth, log odds."""
+_NOT_DRAWN = ("no_aspirate", "air_bubble")
+"""Failures, as data sets have them, of which nothing stays in the tip."""
 
 
 @dataclass(frozen=True)
@@ -120,7 +122,7 @@ def fit_limits(held: HeldOut, wanted: LimitGoal | None = None) -> LimitFit:
     for number, (well, told) in enumerate(zip(judged, readings, strict=True)):
         if told is not None:
             groups[limit_key(well.sample)].append(number)
-    limits: dict[tuple[str, str], LabLimit] = {}
+    limits: dict[tuple[str, str], list[LabLimit]] = {}
     reports, beyond = [], [False] * len(judged)
     for key, members in groups.items():
         wells = [judged[number] for number in members]
@@ -128,10 +130,10 @@ def fit_limits(held: HeldOut, wanted: LimitGoal | None = None) -> LimitFit:
         if min(failures, len(wells) - failures) < ENOUGH:
             continue
         known = np.stack([told for number in members if (told := readings[number]) is not None])
-        limit, over, report = _fit_one(key, wells, known, wanted or LimitGoal())
+        fitted, over, report = _fit_one(key, wells, known, wanted or LimitGoal())
         reports.append(report)
         if report.used:
-            limits[key] = limit
+            limits[key] = fitted
             for number, is_over in zip(members, over, strict=True):
                 beyond[number] = bool(is_over)
     return LimitFit(LabLimits(limits), reports, judged, beyond)
@@ -155,42 +157,67 @@ class _Noted(LabLimits):
 
 def _fit_one(
     key: tuple[str, str], wells: Sequence[JudgedWell], readings: Array, wanted: LimitGoal
-) -> tuple[LabLimit, NDArray[np.bool_], FittedLimit]:
+) -> tuple[list[LabLimit], NDArray[np.bool_], FittedLimit]:
     failed = np.array([well.scored.failed for well in wells])
     flagged = np.array([well.flagged for well in wells])
+    left = np.array([well.sample.retained_fraction or 0.0 for well in wells])
+    types = np.array([well.sample.failure_type for well in wells])
+    stays = (left > 0) | np.char.startswith(types, "partial") | (types == "no_dispense")
+    parts = ((AFTER, failed & ~np.isin(types, _NOT_DRAWN)), (LOADED, failed & ~stays))
+    limits, beyond = [], np.zeros(len(wells), dtype=bool)
+    for names, own in parts:
+        if own.sum() < ENOUGH_ALIKE:
+            continue
+        alike, asked = ~failed | own, np.isin(READINGS, names)
+        known = np.where(asked, readings, np.nan)
+        limit, odds = _fit_part(known[alike], own[alike], left[alike], wanted)
+        over = limit.log_odds(known) > limit.limit
+        over[alike] = odds > limit.limit
+        if _tells(over[own], over[~failed], wanted):
+            limits.append(limit)
+            beyond |= over
+    after = flagged | beyond
+    report = FittedLimit(
+        *key, int(failed.sum()), int((~failed).sum()),
+        int(flagged[failed].sum()), int(after[failed].sum()),
+        int(flagged[~failed].sum()), int(after[~failed].sum()), bool(limits),
+    )  # fmt: skip
+    return limits, beyond, report
+
+
+def _fit_part(
+    readings: Array, failed: NDArray[np.bool_], left: Array, wanted: LimitGoal
+) -> tuple[LabLimit, Array]:
+    """A limit, and the log odds of each well by a fit of the others."""
     odds = {ridge: _left_out(readings, failed, ridge) for ridge in _RIDGES}
     ridge = min(_RIDGES, key=lambda one: _loss(odds[one], failed, _balance(failed)))
-    limit = fit_weights(readings, failed, ridge)
-    alone = odds[ridge]
-    edge = _edge(alone, failed, [well.sample.retained_fraction or 0.0 for well in wells], wanted)
-    beyond = alone > edge
-    hits, of = int(beyond[failed].sum()), int(failed.sum())
-    used = bool(binom.sf(hits - 1, of, _BY_CHANCE) < _BY_CHANCE)
-    after = flagged | (beyond & used)
-    report = FittedLimit(
-        *key, of, int((~failed).sum()),
-        int(flagged[failed].sum()), int(after[failed].sum()),
-        int(flagged[~failed].sum()), int(after[~failed].sum()), used,
-    )  # fmt: skip
-    return replace(limit, limit=edge), beyond, report
+    edge = _edge(odds[ridge], failed, left, wanted)
+    return replace(fit_weights(readings, failed, ridge), limit=edge), odds[ridge]
 
 
-def _edge(
-    odds: Array, failed: NDArray[np.bool_], left: Sequence[float], wanted: LimitGoal
-) -> float:
+def _edge(odds: Array, failed: NDArray[np.bool_], left: Array, wanted: LimitGoal) -> float:
     """The limit that does what is wanted to wells judged by a fit of the others."""
     if wanted.smallest is not None:
-        meant = np.sort(odds[failed & (np.array(left) >= wanted.smallest - 1e-9)])
+        meant = np.sort(odds[failed & (left >= wanted.smallest - 1e-9)])
         if len(meant):
             return float(meant[math.floor((1 - CAUGHT) * len(meant))]) - 1e-6
+    # A few dozen normal wells have no quantile of one in two hundred: the next one, of as many that
+    # scatter normally, is seldom beyond this. Ridge shrinks log odds: only their scatter counts.
     normal = odds[~failed]
-    # A few dozen normal wells have no quantile of one in two hundred: beyond their median they fall
-    # off exponentially.
-    middle = float(np.median(normal))
-    over = float(np.maximum(normal - middle, 0.0).sum())
-    scale = (over + _PRIOR_WELLS * _PRIOR_SCALE) / (_PRIOR_WELLS + 0.5 * len(normal))
-    tail = middle + scale * math.log(0.5 * PLATE / max(wanted.false_stops, 1e-3))
-    return max(tail, float(normal.max()))
+    spread = float(normal.std(ddof=1)) * math.sqrt(1 + 1 / len(normal))
+    beyond = float(normal.mean()) + spread * float(t.isf(_rate(wanted), len(normal) - 1))
+    return max(beyond, float(normal.max()))
+
+
+def _rate(wanted: LimitGoal) -> float:
+    """Normal wells that one of both limits may flag, as a share."""
+    return min(max(wanted.false_stops, 1e-3) / PLATE / 2, 0.5)
+
+
+def _tells(failures: NDArray[np.bool_], normals: NDArray[np.bool_], wanted: LimitGoal) -> bool:
+    """Whether failures are beyond a limit more often than normal wells, or than those may be."""
+    usual = max(_rate(wanted), float(normals.mean()))
+    return bool(binom.sf(failures.sum() - 1, len(failures), usual) < _CERTAIN)
 
 
 def fit_weights(readings: Array, failed: NDArray[np.bool_], ridge: float) -> LabLimit:

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from aegis_ot.errors import CameraError, ConfigurationError
-from aegis_ot.simulation import SessionParameters, SimulatedCamera
+from aegis_ot.simulation import SceneState, SessionParameters, SimulatedCamera, TipContent
 from aegis_ot.simulation.exposure import decode
 from aegis_ot.simulation.render import render_jpeg
 from aegis_ot.vision.camera import Camera
@@ -182,3 +182,30 @@ def test_own_parameters_are_used() -> None:
     session = SessionParameters.draw(np.random.default_rng(2), pipette="p300", size=(960, 540))
     image = SimulatedCamera(parameters=session).frame_after(time.monotonic(), 60.0).image
     assert image.shape == (540, 960, 3)
+
+
+def test_specks_are_a_tips_own_and_tell_nothing_of_what_it_holds() -> None:
+    worn = replace(SessionParameters.bench(), specks=8.0, noise=0.1, axis_jitter_px=0.0)
+    drawn = []
+
+    def render(state, session, rng):
+        drawn.append(state)
+        return render_jpeg(state, session, rng)
+
+    camera = SimulatedCamera(1, parameters=worn, reagent_colours={"sample": "water"}, render=render)
+    frame_of(camera, run_of(["A1"], 200.0)[-1])
+    (emptied,) = drawn
+
+    def specks(state: SceneState) -> np.ndarray:
+        shown, clean = (
+            decode(render_jpeg(state, session, np.random.default_rng(5))[0]).astype(int)
+            for session in (worn, replace(worn, specks=0.0))
+        )
+        return (shown - clean).sum(axis=2) > 100
+
+    own = specks(emptied)
+    full = specks(replace(emptied, contents=(TipContent(liquid_ul=200.0),)))
+    another = specks(replace(emptied, tip_name="another"))
+    assert own.any()
+    assert (own & full).sum() > 0.7 * own.sum()
+    assert (own & another).sum() < 0.3 * own.sum()

@@ -11,12 +11,13 @@ import pytest
 
 from aegis_ot.errors import ModelError
 from aegis_ot.sidecar.analysers import load_scorer
+from aegis_ot.vision import lab_limits
 from aegis_ot.vision.calibration import CalibrationSettings
 from aegis_ot.vision.calibration_group import CalibrationGroup, OpenTrajectory
 from aegis_ot.vision.column_reader import MeasuredColumns
 from aegis_ot.vision.delivery import Delivery, Shown
 from aegis_ot.vision.gates import GateInput, VolumetricGate
-from aegis_ot.vision.lab_limits import READINGS, LabLimit, LabLimits, readings_of
+from aegis_ot.vision.lab_limits import LOADED, READINGS, LabLimit, LabLimits, readings_of
 from aegis_ot.vision.measuring import ColumnReading, SeenColumn
 from aegis_ot.vision.models import SHIPPED, ModelFile, load_model, save_model
 from aegis_ot.vocabulary import Gate, KeyframeKind, Outcome, Route
@@ -68,13 +69,25 @@ def test_what_cannot_be_told_counts_as_usual() -> None:
     bare = GateInput(sample(), Route.GREY_ZONE)
     told = readings_of(bare, {})
     assert np.isnan(told).all()
-    assert LabLimits({RED: weighing("left")}).beyond(bare, {}) == -1.0
+    assert LabLimits({RED: [weighing("left")]}).beyond(bare, {}) == -1.0
 
 
 def test_a_limit_holds_for_its_liquid_alone() -> None:
     left = case(ColumnReading(12.0, 3.0, tested=6))
-    assert LabLimits({RED: weighing("left")}).beyond(left, {}) == pytest.approx(2.4 - 1.0)
-    assert LabLimits({WATER: weighing("left")}).beyond(left, {}) == 0.0
+    assert LabLimits({RED: [weighing("left")]}).beyond(left, {}) == pytest.approx(2.4 - 1.0)
+    assert LabLimits({WATER: [weighing("left")]}).beyond(left, {}) == 0.0
+
+
+def test_a_well_beyond_one_of_several_limits_is_beyond() -> None:
+    left = case(ColumnReading(12.0, 3.0, tested=6))
+    both = LabLimits({RED: [weighing("empty"), weighing("left")]})
+    assert both.beyond(left, {}) == pytest.approx(2.4 - 1.0)
+
+
+def test_every_reading_speaks_of_what_is_left_or_of_what_was_drawn() -> None:
+    assert set(lab_limits.AFTER) | set(LOADED) == set(READINGS)
+    assert {"left", "wet below 100 %"} <= set(lab_limits.AFTER) - set(LOADED)
+    assert {"more", "dry below 100 %", "gap_transit"} <= set(LOADED) - set(lab_limits.AFTER)
 
 
 def test_a_well_beyond_the_limit_is_left_to_the_operator() -> None:
@@ -111,11 +124,13 @@ def saved(path: Path, limits: LabLimits, **other: Any) -> Path:
 
 
 def test_a_model_file_keeps_limits_and_older_files_have_none(tmp_path: Path) -> None:
-    limits = LabLimits({RED: weighing("left"), WATER: weighing("excess", 3.0)})
+    limits = LabLimits(
+        {RED: [weighing("left")], WATER: [weighing("excess", 3.0), weighing("empty")]}
+    )
     scorer: Any = load_scorer(saved(tmp_path / "lab.model", limits))
     left = case(ColumnReading(12.0, 3.0, tested=6))
     assert scorer.lab_limits.beyond(left, {}) == pytest.approx(limits.beyond(left, {}))
-    assert scorer.lab_limits.limits[WATER].limit == 3.0
+    assert [limit.limit for limit in scorer.lab_limits.limits[WATER]] == [3.0, 1.0]
     older: Any = load_scorer(SHIPPED)
     assert older.lab_limits.limits == {}
 
@@ -127,12 +142,12 @@ def test_a_model_file_keeps_limits_and_older_files_have_none(tmp_path: Path) -> 
 def test_limits_of_another_version_are_refused_in_words(
     tmp_path: Path, other: dict[str, Any], says: str
 ) -> None:
-    path = saved(tmp_path / "lab.model", LabLimits({RED: weighing("left")}), **other)
+    path = saved(tmp_path / "lab.model", LabLimits({RED: [weighing("left")]}), **other)
     with pytest.raises(ModelError, match=f"{says}.*fit it anew"):
         load_scorer(path)
 
 
 def test_limits_whose_arrays_are_gone_are_refused() -> None:
-    _, settings = LabLimits({RED: weighing("left")}).to_arrays()
+    _, settings = LabLimits({RED: [weighing("left")]}).to_arrays()
     with pytest.raises(ModelError, match="fit it anew"):
         LabLimits.from_model(ModelFile("ensemble", {}, settings))
