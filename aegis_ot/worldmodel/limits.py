@@ -206,7 +206,8 @@ def _edge(odds: Array, failed: NDArray[np.bool_], left: Array, wanted: LimitGoal
     normal = odds[~failed]
     spread = float(normal.std(ddof=1)) * math.sqrt(1 + 1 / len(normal))
     beyond = float(normal.mean()) + spread * float(t.isf(_rate(wanted), len(normal) - 1))
-    return max(beyond, float(normal.max()))
+    # Nor is a well flagged that is more like the normal ones: their log odds are below 0.
+    return max(beyond, float(normal.max()), 0.0)
 
 
 def _rate(wanted: LimitGoal) -> float:

@@ -104,6 +104,13 @@ def test_the_smallest_leftover_that_is_wanted_is_caught_nine_times_in_ten(monkey
     assert least.reports[0].flagged >= usual.reports[0].flagged
 
 
+def test_no_well_is_flagged_that_is_more_like_the_normal_ones(monkeypatch) -> None:
+    """However far from them the failures are: the next normal well may stray farther than these."""
+    for slope in (50.0, 12.0):
+        (limit,) = fitted(monkeypatch, slope, LimitGoal(20.0)).limits.limits["p1000", "red"]
+        assert limit.limit >= 0
+
+
 def test_more_false_stops_allow_a_lower_limit(monkeypatch) -> None:
     few, many = (fitted(monkeypatch, 12.0, LimitGoal(rate)) for rate in (0.1, 20.0))
     key = ("p1000", "red")
