@@ -16,7 +16,7 @@ from dataclasses import asdict, dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import minimize
-from scipy.stats import binom, t
+from scipy.stats import binom
 
 from ..vision.gates import GateInput
 from ..vision.lab_limits import AFTER, LOADED, READINGS, LabLimit, LabLimits, limit_key, readings_of
@@ -41,6 +41,9 @@ _LEAST_SPREAD = 0.05
 _CERTAIN = 0.05
 """Where failures are beyond the limit no more often than normal wells may be, unless by a chance
 smaller than this, the readings tell nothing."""
+
+_PRIOR_WELLS = 4.0
+"""How many normal wells above their median the scale of those below it is worth."""
 
 _NOT_DRAWN = ("no_aspirate", "air_bubble")
 """Failures, as data sets have them, of which nothing stays in the tip."""
@@ -201,11 +204,13 @@ def _edge(odds: Array, failed: NDArray[np.bool_], left: Array, wanted: LimitGoal
         meant = np.sort(odds[failed & (left >= wanted.smallest - 1e-9)])
         if len(meant):
             return float(meant[math.floor((1 - CAUGHT) * len(meant))]) - 1e-6
-    # A few dozen normal wells have no quantile of one in two hundred: the next one, of as many that
-    # scatter normally, is seldom beyond this. Ridge shrinks log odds: only their scatter counts.
+    # A few dozen normal wells have no quantile of one in two hundred: beyond their median they fall
+    # off exponentially. Ridge shrinks log odds: the usual scale is that of the other side.
     normal = odds[~failed]
-    spread = float(normal.std(ddof=1)) * math.sqrt(1 + 1 / len(normal))
-    beyond = float(normal.mean()) + spread * float(t.isf(_rate(wanted), len(normal) - 1))
+    middle, half = float(np.median(normal)), 0.5 * len(normal)
+    over, under = (float(np.maximum(side * (normal - middle), 0.0).sum()) for side in (1.0, -1.0))
+    scale = (over + _PRIOR_WELLS * under / half) / (_PRIOR_WELLS + half)
+    beyond = middle + scale * math.log(0.5 / _rate(wanted))
     # Nor is a well flagged that is more like the normal ones: their log odds are below 0.
     return max(beyond, float(normal.max()), 0.0)
 
