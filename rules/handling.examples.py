@@ -83,6 +83,31 @@ for well in plate.rows()[0][:4]:
     p300.dispense(80, well)
 p300.drop_tip()
 
+# HND-4 warns: what is left in the tip is emptied into a spare tube, with a volume that is sure to do
+for row in plate.rows()[:3]:
+    p300.pick_up_tip()
+    p300.aspirate(250, buffer)
+    for well in row[:4]:
+        p300.dispense(50, well.top(-1))
+    p300.dispense(100, tubes["D6"].top(-1))
+    p300.drop_tip()
+
+# HND-4 fails: the last of several written out, on the plate that the others went to
+p300.pick_up_tip()
+p300.aspirate(250, buffer)
+p300.dispense(100, plate["A1"])
+p300.dispense(100, plate["A2"])
+p300.dispense(100, plate["A3"])
+p300.drop_tip()
+
+# HND-4 fails: what is cut short in a tube is drawn from later
+p300.pick_up_tip()
+p300.aspirate(250, buffer)
+p300.dispense(200, plate["A1"])
+p300.dispense(100, tubes["D6"])
+p300.drop_tip()
+p300.transfer(40, tubes["D6"], plate["B1"])
+
 # HND-4 fails: distribute ends at the first well, whose share has no room in a smaller tip
 filters = protocol.load_labware("opentrons_96_filtertiprack_200ul", 9)
 p300.tip_racks = [filters]

@@ -113,14 +113,41 @@ def _given_otherwise(case: RuleContext, load: Load) -> Iterator[Violation]:
             )
             yield _violation(told, step, well.ref, "given")
         elif step.written and _matters(case, one, load):
-            yield from _cut(one, well, step.written, others - {well}, last)
+            emptied = _is_emptied(case, one, others - {well})
+            yield from _cut(one, well, step.written, others - {well}, last, emptied)
         if one.liquid > 0:
             others.add(well)
         last = well
 
 
+def _is_emptied(case: RuleContext, one: Given, others: set[Well]) -> bool:
+    """Whether a tip that fed other wells is emptied into a spare one: at a line of its own, into
+    labware of its own or as much as the pipette can give, and nothing is drawn from there.
+    """
+    well = one.well
+    if well is None or not others or well in case.destinations:
+        return False
+    apart = all(other.ref.labware != well.ref.labware for other in others)
+    full = (one.step.written or 0.0) >= one.step.pipette.max_volume
+    return (apart or full) and case.once(_given_at)[one.step.line] == {well}
+
+
+def _given_at(case: RuleContext) -> dict[int | None, set[Well]]:
+    """By line, the wells that it gives liquid to."""
+    found: dict[int | None, set[Well]] = {}
+    for one in (one for load in case.loads for one in load.given):
+        if one.well is not None:
+            found.setdefault(one.step.line, set()).add(one.well)
+    return found
+
+
 def _cut(
-    one: Given, well: Well, written: float, others: set[Well], last: Well | None
+    one: Given,
+    well: Well,
+    written: float,
+    others: set[Well],
+    last: Well | None,
+    emptied: bool,
 ) -> Iterator[Violation]:
     moved = one.liquid + one.air
     short, step = written - moved, one.step
@@ -137,6 +164,8 @@ def _cut(
         why = f"{microlitres(short)} are lacking."
     elif not others and moved >= _ROUNDING:
         why = "All that was drawn goes to this well."
+    elif emptied:
+        why = "What is left in the tip is emptied there, and nothing is drawn from it."
     yield _violation(told, step, well.ref, "cut", why)
 
 
