@@ -83,7 +83,7 @@ for well in plate.rows()[0][:4]:
     p300.dispense(80, well)
 p300.drop_tip()
 
-# HND-4 warns: what is left in the tip is emptied into a spare tube, with a volume that is sure to do
+# HND-4 warns: the tip is emptied into a spare tube, with a volume that is sure to do
 for row in plate.rows()[:3]:
     p300.pick_up_tip()
     p300.aspirate(250, buffer)

@@ -202,7 +202,13 @@ def prepare(rules: RulePaths) -> None:
     import opentrons.protocols.execution.execute_python
     import opentrons.protocols.parse  # noqa: F401
 
-    from ..preflight import check_script, judge, opinion, record  # noqa: F401
+    from ..instrumentation import Event, EventKind
+    from ..preflight import Interpretation, check_script, judge, opinion, record  # noqa: F401
+    from ..preflight.rehearsal import Recording
 
     with contextlib.suppress(AegisError):  # told by the first task that needs it
-        _rule_set(rules)
+        rule_set = _rule_set(rules)
+        # What is made of the rules is made once, and not in each fork: half of a short verdict.
+        judge(Interpretation(Recording("", "", (Event(EventKind.PAUSED),), {}), rule_set))
+        for words in rule_set.words.values():
+            words.has_word_of_control("")

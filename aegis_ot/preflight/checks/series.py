@@ -174,11 +174,7 @@ def _best_order(members: Sequence[Well], links: Sequence[Transfer]) -> list[Well
     return max((by_column, by_row, as_made), key=neighbours)
 
 
-def _turned_to_fall(
-    order: list[Well],
-    entries: Sequence[Well],
-    links: Sequence[Transfer],
-) -> bool:
+def _turned_to_fall(order: list[Well], entries: Sequence[Well], links: Sequence[Transfer]) -> bool:
     """Turn an order in place, if need be, so that it runs away from the stock, which goes into
     ``entries``; returns whether it is known which end is the most concentrated one.
     """

@@ -70,11 +70,12 @@ class UniformVolume(Check):
         title = case.titles(self.liquid)
         usual_got = _usual([got for _, got, _ in members])
         usual_total = _usual([total for _, _, total in members])
-        # Where a good part of the wells ends elsewhere, several kinds of reactions are meant.
-        few = (
-            3 * sum(_differs(total, usual_total) for _, _, total in members) <= len(members)
-            or len(members) < 6
-        )
+        # Where a good part of the wells ends elsewhere, several kinds of reactions are meant; and
+        # where such a part gets this and that much.
+        few = _are_few([total for _, _, total in members], usual_total)
+        odd = {f"{got:.3g}" for _, got, _ in members if _differs(got, usual_got)}
+        if len(odd) > 1 and not _are_few([got for _, got, _ in members], usual_got):
+            return
         for well, got, total in members:
             if well.ref in case.roles.followed:
                 continue
@@ -97,6 +98,11 @@ class UniformVolume(Check):
 def _differs(volume: float, typical: float) -> bool:
     """Whether a volume is off the typical one, µL, by more than 1 % and more than rounding is."""
     return abs(volume - typical) > max(0.01 * typical, 0.01)
+
+
+def _are_few(values: list[float], usual: float) -> bool:
+    """Whether few of the wells are off the usual volume, or there are few wells in all."""
+    return 3 * sum(_differs(one, usual) for one in values) <= len(values) or len(values) < 6
 
 
 def _usual(values: list[float]) -> float:

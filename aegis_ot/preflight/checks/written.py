@@ -142,12 +142,7 @@ def _given_at(case: RuleContext) -> dict[int | None, set[Well]]:
 
 
 def _cut(
-    one: Given,
-    well: Well,
-    written: float,
-    others: set[Well],
-    last: Well | None,
-    emptied: bool,
+    one: Given, well: Well, written: float, others: set[Well], last: Well | None, emptied: bool
 ) -> Iterator[Violation]:
     moved = one.liquid + one.air
     short, step = written - moved, one.step

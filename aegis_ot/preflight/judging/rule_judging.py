@@ -74,7 +74,8 @@ def _results(checks: Sequence[Check], case: RuleContext) -> tuple[list[Violation
     told: dict[str, list[tuple[Site, ...]]] = {}
     violations: list[Violation] = []
     doubts: list[Doubt] = []
-    for number, check in enumerate(checks):
+    for check in checks:
+        kind = type(check)  # what two checks of one kind see in one statement is one cause
         for result in check.find(case):
             doubt = result if isinstance(result, Doubt) else _doubt_about(result, case)
             if doubt is not None:
@@ -84,8 +85,8 @@ def _results(checks: Sequence[Check], case: RuleContext) -> tuple[list[Violation
                 if result.sites not in known:
                     known.append(result.sites)
                     result.warning = _why_warning(result, case)
-                    result.cause = (number, *result.cause)
-                    result.tip = (number, result.warning, *result.tip) if result.tip else ()
+                    result.cause = (kind, *result.cause)
+                    result.tip = (kind, result.warning, *result.tip) if result.tip else ()
                     violations.append(result)
     return violations, doubts
 

@@ -10,11 +10,4 @@ from .making import check_with_dossier, make_dossier, rule_text
 from .merging import merge, no_answer
 from .proposals import quote_problem
 
-__all__ = [
-    "check_with_dossier",
-    "make_dossier",
-    "merge",
-    "no_answer",
-    "quote_problem",
-    "rule_text",
-]
+__all__ = ["check_with_dossier", "make_dossier", "merge", "no_answer", "quote_problem", "rule_text"]

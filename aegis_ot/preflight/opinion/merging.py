@@ -28,11 +28,7 @@ from ..judging import (
 )
 from .proposals import verify_proposals
 
-_SAID = {
-    "holds": "it holds",
-    "violated": "it is violated",
-    "not_applicable": "it does not apply",
-}
+_SAID = {"holds": "it holds", "violated": "it is violated", "not_applicable": "it does not apply"}
 
 
 def no_answer(opinion: Opinion) -> Undecided:

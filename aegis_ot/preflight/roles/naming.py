@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import functools
 import itertools
 import re
-from collections.abc import Sequence
+from collections.abc import Sequence, Set
 
 from ..evidence import Evidence, Kind
 from ..rules import Common, Family
@@ -28,15 +29,7 @@ class FamilyWords:
         self._sides = _first_words(common.sides)
         self._joining = _first_words(common.joining)
         self._lacking = _first_words(common.lacking)
-        self._lexicon: Lexicon = lexicon_of(
-            {
-                **{name: spec.words for name, spec in family.roles.items()},
-                # What only looks like a role's name is found as such, and names nothing.
-                **{f"!{name}": spec.never for name, spec in family.roles.items()},
-            },
-            common.aliases,
-        )
-
+        self._aliases = common.aliases
         self.signals = lexicon_of(
             {
                 str(n): (*one.words, *(w for role in one.roles for w in family.roles[role].words))
@@ -44,12 +37,23 @@ class FamilyWords:
             },
             common.aliases,
         )
-        liquids = {role for spec in family.roles.values() for role in spec.follows}
+
+    @functools.cached_property
+    def _lexicon(self) -> Lexicon:
+        roles = self.family.roles.items()
+        phrases = {name: spec.words for name, spec in roles}
+        # What only looks like a role's name is found as such, and names nothing.
+        return lexicon_of(phrases | {f"!{name}": spec.never for name, spec in roles}, self._aliases)
+
+    @functools.cached_property
+    def _of_control(self) -> Set[str]:
+        roles = self.family.roles
+        liquids = {role for spec in roles.values() for role in spec.follows}
         names: dict[bool, set[tuple[str, ...]]] = {True: set(), False: set()}
-        for name, spec in family.roles.items():
+        for name, spec in roles.items():
             if spec.follows or name in liquids:
                 names[bool(spec.follows)].update(map(self._lexicon.words, spec.words))
-        self._of_control = {name[0] for name in names[True] - names[False] if len(name) == 1}
+        return {name[0] for name in names[True] - names[False] if len(name) == 1}
 
     def has_word_of_control(self, text: str) -> bool:
         """Whether one of a name's words says that it is a control, not what liquid: "control"."""

@@ -32,9 +32,11 @@ class Match(NamedTuple):
 @functools.lru_cache(maxsize=8192)
 def tokens(text: str) -> tuple[str, ...]:
     """Cut a text or identifier into lower-case words, plurals reduced."""
-    plain = unicodedata.normalize("NFKD", text.translate(_LETTERS))
-    plain = "".join(c for c in plain if not unicodedata.combining(c)).replace("'", "")
-    return tuple(_singular(_folded(piece.lower())) for piece in _PIECES.findall(plain))
+    if not text.isascii():
+        text = unicodedata.normalize("NFKD", text.translate(_LETTERS))
+        text = "".join(c for c in text if not unicodedata.combining(c))
+    pieces = _PIECES.findall(text.replace("'", ""))
+    return tuple([_singular(_folded(piece.lower())) for piece in pieces])
 
 
 @functools.lru_cache(maxsize=8192)
@@ -85,9 +87,7 @@ class Lexicon:
     """
 
     def __init__(
-        self,
-        phrases: tuple[tuple[str, tuple[str, ...]], ...],
-        aliases: tuple[tuple[str, str], ...],
+        self, phrases: tuple[tuple[str, tuple[str, ...]], ...], aliases: tuple[tuple[str, str], ...]
     ) -> None:
         self._aliases = dict(aliases)
         self._by_first: dict[str, list[tuple[tuple[str, ...], str, str]]] = {}
@@ -97,7 +97,8 @@ class Lexicon:
                 if parts:
                     self._by_first.setdefault(parts[0], []).append((parts, topic, phrase))
         for entries in self._by_first.values():
-            entries.sort(key=lambda entry: -len(entry[0]))
+            if len(entries) > 1:
+                entries.sort(key=lambda entry: -len(entry[0]))
         self.find = functools.lru_cache(maxsize=_MOST_TEXTS)(self._find)
         self.words = functools.lru_cache(maxsize=_MOST_TEXTS)(self._words)
 
@@ -138,8 +139,7 @@ class Lexicon:
 
 
 def lexicon_of(
-    phrases: Mapping[str, Sequence[str]],
-    aliases: Mapping[str, str] | None = None,
+    phrases: Mapping[str, Sequence[str]], aliases: Mapping[str, str] | None = None
 ) -> Lexicon:
     """The lexicon of a rule file's lists (see :class:`Lexicon`), made once for equal lists."""
     listed = tuple((topic, tuple(words)) for topic, words in phrases.items())

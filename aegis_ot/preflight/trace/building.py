@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence, Set
 
 from ...adapters.opentrons.instrumentation import (
     Event,
@@ -65,7 +65,8 @@ def build_trace(
         for ref in (step.wells if through else ())
         if ref is not None
     }
-    return _Builder(labware, words, prefilled, set(through) - drawn).run(log)
+    bare = TipBox.racks_filled_by(log)
+    return _Builder(labware, words, prefilled, set(through) - drawn, bare).run(log)
 
 
 class _Builder:
@@ -75,8 +76,9 @@ class _Builder:
         words: Words,
         prefilled: Callable[[WellRef], bool],
         through: Collection[str],
+        bare: Set[str],
     ) -> None:
-        self._box = TipBox()
+        self._box = TipBox(bare)
         self._trace = Trace(labware, tips=self._box.tips)
         self._half_loaded = {
             key
@@ -286,6 +288,7 @@ class _Builder:
             gave is not None
             and gave.well is well
             and gave.kind is not OperationKind.ASPIRATE
+            and not gave.mixing
             and well.known
             and not step.mixing
             and well.contact(step.from_top, step.from_bottom) is Contact.CLEAR

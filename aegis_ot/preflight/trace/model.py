@@ -85,9 +85,6 @@ class Well:
         self.order = row_column(self.ref.name)
         self.last = {self: 1.0}
 
-    def __repr__(self) -> str:
-        return f"<{self.ref.address}{'*' * self.generation}>"
-
     @property
     def plate(self) -> tuple[str, int]:
         """The physical labware that it is a well of."""
@@ -296,9 +293,6 @@ class Visit:
         self.empty_before = self.well.empty
         self.carried = len(self.tip.origins)
         self.met = len(self.tip.touched)
-
-    def __repr__(self) -> str:
-        return f"<{self.kind.value} {self.well!r} tip {self.tip.number} line {self.line}>"
 
     @property
     def touches(self) -> bool:
