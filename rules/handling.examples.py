@@ -161,6 +161,16 @@ for tube, rows in zip(tubes.wells(), (plate.rows()[:2], plate.rows()[2:4])):
 for _ in range(3):
     p300.transfer(200, tubes["A1"], deepwell["A1"], mix_before=(5, 250))
 
+# HND-6 passes: an empty rack is given four tips, so four of eight channels draw
+rack = protocol.load_labware("opentrons_96_tiprack_300ul", 9)
+for column, row in enumerate("ACEG"):
+    m300.pick_up_tip(tips300.rows()[7][column])
+    m300.drop_tip(rack[f"{row}1"])
+m300.pick_up_tip(rack["A1"])
+for column in deepwell.rows()[0]:
+    m300.transfer(250, reservoir["A1"], column, new_tip="never")
+m300.drop_tip()
+
 # HND-6 fails: a channel of a reservoir for more than it holds
 for column in range(4):
     m300.transfer(250, reservoir["A1"], [deepwell.rows()[0][column]] * 3, new_tip="once")

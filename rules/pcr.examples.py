@@ -178,6 +178,14 @@ for well, volume in zip(samples + [pos, ntc], [18, 18, 18, 15]):
 p20.transfer(2, templates + [positive_control], samples + [pos], new_tip="always")
 p20.transfer(2, water, ntc)
 
+# PCR-6 passes: volumes of master mix that are a plan
+for row, volume in zip(plate.rows(), (14, 15, 16, 17, 18, 18, 18, 18)):
+    p20.transfer(volume, master_mix, row[4:6], new_tip="always")
+    p20.transfer(20 - volume, templates[0], row[4:6], new_tip="always")
+p20.transfer(18, master_mix, samples + [pos, ntc], new_tip="always")
+p20.transfer(2, templates + [positive_control], samples + [pos], new_tip="always")
+p20.transfer(2, water, ntc)
+
 # PCR-6 warns: one sample gets twice the template
 p20.transfer(16, master_mix, samples + [pos, ntc], new_tip="always")
 p20.transfer([4, 2, 2], templates + [positive_control], samples + [pos], new_tip="always")

@@ -49,12 +49,7 @@ def backend_of(
     """
     if not (model or record or configured or os.environ.get("AEGIS_OT_MODEL")):
         return None
-    from ..llm import (
-        make_backend,
-        model_from_environment,
-        project_model,
-        record_from_environment,
-    )
+    from ..llm import make_backend, model_from_environment, project_model, record_from_environment
 
     name = model or model_from_environment()
     if name is None and configured is not None:

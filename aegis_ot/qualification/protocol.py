@@ -8,12 +8,7 @@ from .plan import QualificationPlan, settings_text
 
 API_LEVEL = "2.16"
 
-GUARD = {
-    "on_fail": "continue",
-    "on_undecided": "continue",
-    "on_link_loss": "abort",
-    "recover": {},
-}
+GUARD = {"on_fail": "continue", "on_undecided": "continue", "on_link_loss": "abort", "recover": {}}
 """A qualification goes on after what it planted, and nothing puts that right, whatever else the
 robot is set to; without a sidecar it is worth nothing."""
 

@@ -202,9 +202,9 @@ def prepare(rules: RulePaths) -> None:
     import opentrons.protocols.execution.execute_python
     import opentrons.protocols.parse  # noqa: F401
 
-    from ..instrumentation import Event, EventKind
+    from ..adapters.opentrons.instrumentation import Event, EventKind
+    from ..adapters.opentrons.rehearsal import Recording
     from ..preflight import Interpretation, check_script, judge, opinion, record  # noqa: F401
-    from ..preflight.rehearsal import Recording
 
     with contextlib.suppress(AegisError):  # told by the first task that needs it
         rule_set = _rule_set(rules)

@@ -63,9 +63,7 @@ class JudgedWell:
 
 
 def run_cascade(
-    held: HeldOut,
-    asked: Sequence[ConfirmingGate] = (),
-    detector: Detector | None = None,
+    held: HeldOut, asked: Sequence[ConfirmingGate] = (), detector: Detector | None = None
 ) -> list[JudgedWell]:
     """Judge every well of every plate, in the order in which they were pipetted.
 

@@ -167,12 +167,7 @@ def _labelled(
     data = item if isinstance(item, Dataset) else load_dataset(item)
     boxes, name = find_detector(data, detector)
     labelled = [sample for sample in data.samples(boxes) if sample.label]
-    told = {
-        "name": data.name,
-        "source": data.source,
-        "plates": list(data.plates),
-        "detector": name,
-    }
+    told = {"name": data.name, "source": data.source, "plates": list(data.plates), "detector": name}
     return [(labelled, told)]
 
 

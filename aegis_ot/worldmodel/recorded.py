@@ -82,12 +82,7 @@ def _run(store: Store, row: Mapping[str, Any], detector: Detector) -> RecordedRu
             samples.append(_sample(store, run, entry, keyframes, detector, source))
             kept.append(entry)
     return RecordedRun(
-        run,
-        str(row.get("protocol", "")),
-        source,
-        samples,
-        kept,
-        len(entries) - len(samples),
+        run, str(row.get("protocol", "")), source, samples, kept, len(entries) - len(samples)
     )
 
 

@@ -129,16 +129,9 @@ def _is_emptied(case: RuleContext, one: Given, others: set[Well]) -> bool:
         return False
     apart = all(other.ref.labware != well.ref.labware for other in others)
     full = (one.step.written or 0.0) >= one.step.pipette.max_volume
-    return (apart or full) and case.once(_given_at)[one.step.line] == {well}
-
-
-def _given_at(case: RuleContext) -> dict[int | None, set[Well]]:
-    """By line, the wells that it gives liquid to."""
-    found: dict[int | None, set[Well]] = {}
-    for one in (one for load in case.loads for one in load.given):
-        if one.well is not None:
-            found.setdefault(one.step.line, set()).add(one.well)
-    return found
+    given = (other for load in case.loads for other in load.given)
+    here = {other.well for other in given if other.step.line == one.step.line}
+    return (apart or full) and here == {well}
 
 
 def _cut(

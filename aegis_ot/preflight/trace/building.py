@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Collection, Mapping, Sequence, Set
+from collections.abc import Callable, Collection, Mapping, Sequence
 
 from ...adapters.opentrons.instrumentation import (
     Event,
@@ -65,8 +65,7 @@ def build_trace(
         for ref in (step.wells if through else ())
         if ref is not None
     }
-    bare = TipBox.racks_filled_by(log)
-    return _Builder(labware, words, prefilled, set(through) - drawn, bare).run(log)
+    return _Builder(labware, words, prefilled, set(through) - drawn).run(log)
 
 
 class _Builder:
@@ -76,9 +75,8 @@ class _Builder:
         words: Words,
         prefilled: Callable[[WellRef], bool],
         through: Collection[str],
-        bare: Set[str],
     ) -> None:
-        self._box = TipBox(bare)
+        self._box = TipBox()
         self._trace = Trace(labware, tips=self._box.tips)
         self._half_loaded = {
             key
@@ -96,10 +94,17 @@ class _Builder:
 
     def run(self, log: Sequence[Record]) -> Trace:
         self._trace.log = log
+        taken: set[WellRef | None] = {None}
         for step in log:
             if isinstance(step, Operation) and step.kind in _MOVING and _is_in_pairs(step.wells):
                 labware = step.wells[0].labware if step.wells[0] else ""
                 self._trace.in_pairs.setdefault(step.pipette.key, set()).add(labware)
+            elif isinstance(step, Operation) and step.kind is OperationKind.PICK_UP_TIP:
+                taken.update(step.wells)
+            elif isinstance(step, Operation) and step.kind is OperationKind.DROP_TIP:
+                # No tip can be put onto another: where none was taken, the rack was empty.
+                put = () if step.disposal else step.wells
+                self._box.bare.update(ref.labware for ref in put if ref and ref not in taken)
         for record in log:
             # Wherever it stands in the text, it tells what is there before the run.
             if isinstance(record, Event) and record.kind is EventKind.LIQUID_LOADED:

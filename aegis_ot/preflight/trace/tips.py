@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence, Set
+from collections.abc import Iterable, Sequence
 
-from ...instrumentation import Operation, OperationKind
 from ...vocabulary import WellRef
 from .model import Tip
 
@@ -14,8 +13,8 @@ class TipBox:
     ``bare`` hold none but those that the run puts there.
     """
 
-    def __init__(self, bare: Set[str] = frozenset()) -> None:
-        self._bare = bare
+    def __init__(self) -> None:
+        self.bare: set[str] = set()
         self._returned: dict[WellRef, Tip] = {}
         self._on: dict[tuple[str, str], Tip] = {}
         self._taken: set[WellRef] = set()
@@ -35,7 +34,7 @@ class TipBox:
         for nozzle, home in zip(nozzles, racks, strict=False):
             tip = self._returned.pop(home, None) if home is not None else None
             bare = lead is not None and (home is None or (home in self._taken and home != lead))
-            if tip is None and (bare or (home is not None and home.labware in self._bare)):
+            if tip is None and (bare or (home is not None and home.labware in self.bare)):
                 self._on.pop((pipette, nozzle), None)
                 continue
             if home is not None:
@@ -69,21 +68,6 @@ class TipBox:
         for home in [home for home in self._returned if home.labware == labware and returned_too]:
             del self._returned[home]
         self._taken = {home for home in self._taken if home.labware != labware}
-
-    @staticmethod
-    def racks_filled_by(log: Iterable[object]) -> Set[str]:
-        """Racks of which the run has used tips stand in places where it took none: these places
-        were empty, since no tip can be put onto another.
-        """
-        taken: set[WellRef | None] = {None}
-        filled: set[str] = set()
-        for step in log:
-            if isinstance(step, Operation) and step.kind is OperationKind.PICK_UP_TIP:
-                taken.update(step.wells)
-            elif isinstance(step, Operation) and step.kind is OperationKind.DROP_TIP:
-                put = () if step.disposal else step.wells
-                filled.update(ref.labware for ref in put if ref is not None and ref not in taken)
-        return filled
 
     def _new(self) -> Tip:
         tip = Tip(len(self.tips))
