@@ -33,8 +33,8 @@ class TipBox:
         lead = next((home for home in racks if home is not None), None)
         for nozzle, home in zip(nozzles, racks, strict=False):
             tip = self._returned.pop(home, None) if home is not None else None
-            bare = lead is not None and (home is None or (home in self._taken and home != lead))
-            if tip is None and (bare or (home is not None and home.labware in self.bare)):
+            gone = home is None or home in self._taken or home.labware in self.bare
+            if tip is None and gone and lead is not None and home != lead:
                 self._on.pop((pipette, nozzle), None)
                 continue
             if home is not None:
@@ -67,6 +67,7 @@ class TipBox:
         """
         for home in [home for home in self._returned if home.labware == labware and returned_too]:
             del self._returned[home]
+        self.bare.discard(labware)
         self._taken = {home for home in self._taken if home.labware != labware}
 
     def _new(self) -> Tip:
