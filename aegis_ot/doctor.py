@@ -20,7 +20,7 @@ from .llm import make_backend
 from .llm.backends.service import ServiceBackend
 from .settings import load_settings
 from .sidecar.aiming import Aim
-from .sidecar.alerts.notifications import Notifier
+from .sidecar.alerts.sending import Notifier
 from .sidecar.analysers import load_scorer
 from .sidecar.cameras import FreeRunning, open_camera
 from .sidecar.config import CameraSettings, SidecarConfig, is_loopback

@@ -16,10 +16,10 @@ from ..errors import LinkError, RunAborted
 from ..http_client import CheckStop
 from ..settings import Settings
 from ..vocabulary import Keyframe, KeyframeKind
+from .boundaries import Holding
 from .cancellation import LAST_WORDS_S, CancellationToken, Stopping
 from .delivery_policy import DeliveryPolicy
 from .descriptions import about_guard, about_run, working_volume
-from .holding import Holding
 from .keyframe_sender import KeyframeSender
 from .objecting import object_to
 from .operator import Operator

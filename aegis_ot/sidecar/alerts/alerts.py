@@ -12,7 +12,7 @@ from ..store import Store
 from .incidents import Incidents
 from .messages import compose
 from .notices import Notice
-from .notifications import Notifier
+from .sending import Notifier
 
 
 class Alerts:

@@ -10,7 +10,7 @@ from ...vocabulary import one_line
 from ..overview import run_overview
 from ..store import Store
 from .notices import Notice
-from .notifications import Notification
+from .sending import Notification
 
 _MOST = 5
 """Wells that are told one by one."""

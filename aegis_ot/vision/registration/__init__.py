@@ -3,7 +3,7 @@ each later tip must appear."""
 
 from .fitting import fit
 from .locating import Located, TipLocator
-from .model import CameraModel
+from .pinhole import CameraModel
 from .registered import ProjectedTip, Registration, Sighting
 
 __all__ = [

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
 from ..tips import TIPS
-from .model import POSE, CameraModel
+from .pinhole import POSE, CameraModel
 from .registered import Floats, Registration, Sighting, project_ends, with_slopes
 
 FEWEST = 4

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ..tips import TipGeometry
 from ..types import Position, TipDetection
-from .model import POSE, CameraModel
+from .pinhole import POSE, CameraModel
 
 Floats = NDArray[np.float64]
 

@@ -18,7 +18,7 @@ from pydantic import SecretStr
 from aegis_ot.errors import CameraError, ConfigurationError
 from aegis_ot.sidecar import SidecarConfig, create_app, running_sidecar
 from aegis_ot.sidecar.alerts import Notice
-from aegis_ot.sidecar.alerts.notifications import Notification, Notifier
+from aegis_ot.sidecar.alerts.sending import Notification, Notifier
 from aegis_ot.sidecar.config import NotificationSettings
 
 from .helpers import Robot, StubAnalyser, StubCamera
