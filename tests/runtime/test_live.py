@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 
 from aegis_ot.errors import RunAborted
-from aegis_ot.runtime import holding, outbox
+from aegis_ot.runtime import boundaries, outbox
 from aegis_ot.runtime import keyframe_sender as sender
 from aegis_ot.runtime import operator as operator_module
 from aegis_ot.settings import Settings
@@ -146,7 +146,7 @@ def test_an_operators_pause_during_a_hold_waits_for_play(
 ) -> None:
     ahead = [0.0]
     clock = SimpleNamespace(monotonic=lambda: time.monotonic() + ahead[0])
-    monkeypatch.setattr(holding, "time", clock)
+    monkeypatch.setattr(boundaries, "time", clock)
     is_paused, is_late = threading.Event(), threading.Event()
 
     def pass_time(handler: Handler) -> bool:

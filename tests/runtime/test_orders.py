@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from aegis_ot.runtime import holding
+from aegis_ot.runtime import boundaries
 
 from .fake_sidecar import FakeSidecar
 from .live import LiveRun
@@ -82,7 +82,7 @@ def test_a_stop_ends_the_run_as_the_robots_own_button_does(
 def test_a_stop_that_the_robots_server_refuses_ends_the_run_by_an_error(
     sidecar: FakeSidecar, robot: RobotServer, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(holding, "_STOP_S", 0.1)
+    monkeypatch.setattr(boundaries, "_STOP_S", 0.1)
     robot.status = 409
     sidecar.order = order("stop")
     run = robot.run = LiveRun(two_wells, settings(sidecar))
