@@ -76,8 +76,9 @@ def test_a_model_looks_at_what_the_volumes_leave_open_and_can_be_replayed(
         asked = settled("--model", f"openai:m@{server.url}/v1", "--record", "kept")
         # First wells and a share of those that passed are looked at too.
         assert len(server.seen) > alone["operator_undecided"] > 0
-    assert "silent_pass" in alone
-    assert "silent_pass" not in asked, "wells that the model doubts calibrate nothing"
+    # Of what passed alone, only the wells far inside the band that no spot check fell on still do.
+    assert asked.get("silent_pass", 0) < alone["silent_pass"] / 2
+    assert asked["vlm_fail"] + asked["vlm_undecided"] > alone["silent_pass"] / 2
     assert settled("--model", "replay:kept") == asked
     wrong = aegis(*command, "--model", "replay:kept")
     assert wrong.code == 2
