@@ -27,6 +27,8 @@ from .test_cameras import web_camera
 
 PERIOD_S = 0.12
 LAG_S = 0.1
+SPARE_S = 0.06
+"""How late a busy machine may hand on a picture; half a period, so that an older one shows."""
 _BITS = 24
 _ORIGIN = time.monotonic()
 
@@ -140,13 +142,8 @@ def camera_of(kind: str) -> Iterator[tuple[Sensor, str]]:
     ],
 )
 def test_a_frame_was_exposed_after_the_moment(kind: str) -> None:
-    # A busy machine may keep a picture for longer than the latency that was promised, now and then.
-    assert any(frames_are_of_later_moments(kind) for _ in range(3))
-
-
-def frames_are_of_later_moments(kind: str) -> bool:
     with camera_of(kind) as (sensor, url):
-        latency = LAG_S if "slow" in kind else 0.02
+        latency = SPARE_S + (LAG_S if "slow" in kind else 0.0)
         with closing(open_camera(CameraSettings(spec=url, latency_s=latency))) as camera:
             for number in range(4):
                 # At every phase of the camera's period.
@@ -154,9 +151,7 @@ def frames_are_of_later_moments(kind: str) -> bool:
                 sensor.over.wait(number * PERIOD_S / 4)
                 moment = time.monotonic()
                 frame = camera.frame_after(moment, 60.0)
-                if moment_in(frame.image) < moment - 0.002:  # it holds whole ms
-                    return False
-    return True
+                assert moment_in(frame.image) >= moment - 0.002  # it holds whole ms
 
 
 def test_pictures_that_a_server_begins_with_tell_no_pace() -> None:

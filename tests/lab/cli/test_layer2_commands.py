@@ -48,8 +48,12 @@ def test_several_scorers_and_the_cascade(aegis: Command, drawn: Path) -> None:
 
 
 def test_a_model_looks_at_what_the_volumes_leave_open_and_can_be_replayed(
-    aegis: Command, drawn: Path, monkeypatch: pytest.MonkeyPatch
+    aegis: Command, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    from aegis_ot_lab.drawing import write_dataset
+
+    # A set of which every well that passes is near the band or drawn for a spot check.
+    drawn = write_dataset(tmp_path / "set", 3, 2, "p300", size=(320, 240))
     monkeypatch.setenv("AEGIS_OT_LLM_API_KEY", "sk-test")
     monkeypatch.setenv("NO_PROXY", "127.0.0.1")
     said = {"verdict": "fail", "confidence": "high", "failure": "air_bubble", "reason": "A gap."}
@@ -76,9 +80,7 @@ def test_a_model_looks_at_what_the_volumes_leave_open_and_can_be_replayed(
         asked = settled("--model", f"openai:m@{server.url}/v1", "--record", "kept")
         # First wells and a share of those that passed are looked at too.
         assert len(server.seen) > alone["operator_undecided"] > 0
-    # Of what passed alone, only the wells far inside the band that no spot check fell on still do.
-    assert asked.get("silent_pass", 0) < alone["silent_pass"] / 2
-    assert asked["vlm_fail"] + asked["vlm_undecided"] > alone["silent_pass"] / 2
+    assert "silent_pass" not in asked, "wells that the model doubts calibrate nothing"
     assert settled("--model", "replay:kept") == asked
     wrong = aegis(*command, "--model", "replay:kept")
     assert wrong.code == 2
