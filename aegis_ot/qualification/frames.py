@@ -20,7 +20,7 @@ from ..vision.registration import TipLocator
 from ..vision.tips import tip_for
 from ..vision.types import Detector, Image, TipDetection, TrajectorySample
 from ..vocabulary import KeyframeKind
-from ..worldmodel.recorded import StoredFrames, recorded_runs
+from ..worldmodel.recorded import jpegs_of, recorded_runs
 from ..worldmodel.registered_tips import located_tips
 from .plan import QualificationPlan, QualifyingDelivery
 
@@ -80,13 +80,7 @@ def write_frames(folder: Path, samples: Sequence[TrajectorySample], source: str)
     }
     with DatasetWriter(folder, meta) as writer:
         for sample in samples:
-            frames = sample.frames
-            jpegs = (
-                {kind: frames.jpeg(kind) for kind in KeyframeKind}
-                if isinstance(frames, StoredFrames)
-                else None
-            )
-            writer.add(sample, jpegs)
+            writer.add(sample, jpegs_of(sample))
     return folder
 
 

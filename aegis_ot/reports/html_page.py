@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from jinja2 import ChoiceLoader, Environment, PackageLoader, StrictUndefined
 
 from .. import __version__
-from ..vocabulary import Gate, KeyframeKind
+from ..vocabulary import NOT_AS_REHEARSED, Gate, KeyframeKind
 
 if TYPE_CHECKING:  # `aegis-ot check` does without numpy and OpenCV
     from ..run_view import Level
@@ -60,6 +60,7 @@ def _environment(room: str) -> Environment:
         moment=_moment,
     )
     environment.globals["titles"] = KEYFRAME_TITLES
+    environment.globals["not_as_rehearsed"] = NOT_AS_REHEARSED
     environment.globals["gates"] = {gate.value: gate.traits.does for gate in Gate}
     return environment
 

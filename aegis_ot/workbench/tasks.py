@@ -202,13 +202,7 @@ def prepare(rules: RulePaths) -> None:
     import opentrons.protocols.execution.execute_python
     import opentrons.protocols.parse  # noqa: F401
 
-    from ..adapters.opentrons.instrumentation import Event, EventKind
-    from ..adapters.opentrons.rehearsal import Recording
-    from ..preflight import Interpretation, check_script, judge, opinion, record  # noqa: F401
+    from ..preflight import check_script, judge, opinion, record  # noqa: F401
 
     with contextlib.suppress(AegisError):  # told by the first task that needs it
-        rule_set = _rule_set(rules)
-        # What is made of the rules is made once, and not in each fork: half of a short verdict.
-        judge(Interpretation(Recording("", "", (Event(EventKind.PAUSED),), {}), rule_set))
-        for words in rule_set.words.values():
-            words.has_word_of_control("")
+        _rule_set(rules).prepare()  # once, and not in each fork: half of a short verdict

@@ -14,7 +14,7 @@ from ..vision.dataset_writer import DatasetWriter
 from ..vision.tips import tip_for
 from ..vision.types import Detector
 from ..vocabulary import KeyframeKind
-from .recorded import StoredFrames, recorded_runs
+from .recorded import jpegs_of, recorded_runs
 from .tips import named_detector
 
 
@@ -84,13 +84,7 @@ def export_runs(
     progress.begin("Writing", len(kept))
     with DatasetWriter(folder, meta) as writer:
         for sample in kept:
-            frames = sample.frames
-            jpegs = (
-                {kind: frames.jpeg(kind) for kind in KeyframeKind}
-                if isinstance(frames, StoredFrames)
-                else None
-            )
-            writer.add(sample, jpegs)
+            writer.add(sample, jpegs_of(sample))
             progress.step()
     labels = Counter(sample.label for sample in kept)
     written_runs = sum(any(sample in kept for sample in run.samples) for run in found)

@@ -171,3 +171,9 @@ class StoredFrames(Mapping[KeyframeKind, Image]):
 
     def __len__(self) -> int:
         return len(self._sequences)
+
+
+def jpegs_of(sample: TrajectorySample) -> dict[KeyframeKind, bytes] | None:
+    """The frames as the camera gave them, ``None`` where the sample is not a recorded one."""
+    frames = sample.frames
+    return {k: frames.jpeg(k) for k in KeyframeKind} if isinstance(frames, StoredFrames) else None

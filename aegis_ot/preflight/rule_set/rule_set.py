@@ -46,6 +46,12 @@ class RuleSet:
 
         return {family.family: FamilyWords(family, self.common) for family in self.families}
 
+    def prepare(self) -> None:
+        """Make now, and not at the first verdict, what is made of the rules once."""
+        _ = self.checks
+        for words in self.words.values():
+            words.has_word_of_control("")
+
     def rule(self, rule_id: str) -> tuple[Family, RuleSpec]:
         """Find a rule.
 
