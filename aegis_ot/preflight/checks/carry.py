@@ -14,7 +14,7 @@ from ..rules import role_names
 from ..source import comparable
 from ..trace import Contact, Met, Tip, Visit, Well
 from .check import Check, Doubt, Result, Violation, surest
-from .practice import is_given_to_all, made_after, was_rinsed
+from .practice import is_given_to_all, made_after, only_rinses, was_rinsed
 from .rule_context import RuleContext, carried_liquids
 
 _IN_ALL = "All that is still made of it is given that liquid too: the tip brought nothing new."
@@ -69,7 +69,7 @@ class Carry(Check):
         if self.unnamed:
             carriers.update(well for well in case.destinations if not case.of(well))
         so_far = _SoFar()
-        harmful = {well for well in carriers if not _only_rinses(case, well)}
+        harmful = {well for well in carriers if not only_rinses(case, well)}
         for visit in self._visits(case) if harmful else ():
             for origin, met in so_far.carried(visit):
                 if origin not in harmful or origin is visit.well:
@@ -386,12 +386,6 @@ def _is_rising(case: RuleContext, origin: Well, well: Well) -> bool:
     return mine is not None and any(
         level is not None and mine < level and comparable(mine, level) for level in levels
     )
-
-
-def _only_rinses(case: RuleContext, origin: Well) -> bool:
-    """Whether a shared liquid goes to the waste alone: what tips are rinsed with."""
-    thrown = origin in case.destinations and not case.made_of[origin]
-    return thrown and case.is_one_liquid(origin)
 
 
 def _on_purpose(stock: Well, origin: Well, visit: Visit) -> bool:

@@ -43,10 +43,10 @@ def made_after(case: RuleContext, well: Well, index: int, further: bool) -> set[
 
 def was_rinsed(case: RuleContext, visit: Visit, origin: Well) -> bool:
     """Whether, since the tip last met a liquid, a shared one was drawn into it and given to the
-    waste often enough.
+    waste often enough, or the tip was washed by mixing in one that serves nothing else.
     """
     rinses, thrown = 0, False
-    for other in reversed(visit.tip.visits) if case.waste else ():
+    for other in reversed(visit.tip.visits):
         if other.index >= visit.index:
             continue
         if other.well.ref in case.waste:
@@ -54,6 +54,18 @@ def was_rinsed(case: RuleContext, visit: Visit, origin: Well) -> bool:
         elif other.well is origin or origin in case.meant.get(other.well, ()):
             break
         elif other.kind is OperationKind.ASPIRATE:
-            rinses += thrown and case.is_one_liquid(other.well)
+            if case.is_one_liquid(other.well):
+                rinses += _RINSES if _is_bath(other.well) else thrown
             thrown = False
     return rinses >= _RINSES
+
+
+def only_rinses(case: RuleContext, well: Well) -> bool:
+    """Whether a shared liquid goes to the waste alone, or nowhere: what tips are rinsed with."""
+    thrown = well in case.destinations and not case.made_of[well]
+    return (thrown or _is_bath(well)) and case.is_one_liquid(well)
+
+
+def _is_bath(well: Well) -> bool:
+    """Whether it is mixed again and again, and serves nothing else."""
+    return len(well.mixes) > 1 and all(one.mixing for one in well.visits)

@@ -77,6 +77,30 @@ def test_tips_that_are_washed_are_told_once() -> None:
     assert 0 < len(rinsed) <= 2  # into the samples, and into the wells that they go to
 
 
+@pytest.mark.parametrize(
+    ("bath", "severity"),
+    [("one.mix(3, 200, ethanol)", "warning"), ("one.mix(3, 200, sample)", "error")],
+)
+def test_a_tip_is_washed_by_mixing_in_what_serves_nothing_else(bath: str, severity: str) -> None:
+    report = _report(
+        f"""
+        ethanol = trough["A12"]
+        load([ethanol], "ethanol")
+        for n, well in enumerate(deep.rows()[0]):
+            load([well], f"Sample {{n}}")
+        one.pick_up_tip()
+        for sample, well in zip(deep.rows()[0], plate.rows()[0]):
+            one.transfer(50, sample, well, new_tip="never")
+            {bath}
+        one.drop_tip()
+        """
+    )
+    assert {one.severity.value for one in report.findings if one.rule == "GEN-1"} == {severity}
+    assert ("was rinsed" in "".join(one.message for one in report.findings)) is (
+        severity == "warning"
+    )
+
+
 def test_only_a_comment_tells_the_assay_and_handling_does_not_care() -> None:
     report = _report(
         '''
