@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from ...adapters.opentrons.instrumentation import LabwareInfo, Operation, OperationKind, wells_under
 from ...vocabulary import Site, WellRef, counted
 from ..trace import Beside
-from .check import Check, Result, Violation
+from .check import Check, Doubt, Result, Violation
 from .rule_context import RuleContext, at
 
 _TROUGH_MM = 50.0
@@ -48,7 +48,8 @@ class TipsOverWells(Check):
     """Every tip that takes part in a draw or a delivery stands over a well.
 
     Long troughs, waste and labware of a single well are excepted. Tips that hold nothing, stand
-    beyond the labware and are to give nothing later are a warning.
+    beyond the labware and are to give nothing later are a warning. After a pause that asks for
+    tips to be taken out it is open whether these were there.
     """
 
     def find(self, case: RuleContext) -> Iterator[Result]:
@@ -65,6 +66,12 @@ class TipsOverWells(Check):
         for cause, together in found.items():
             worst = sorted(together, key=lambda one: (_is_harmless(one, case), -len(one.nozzles)))
             told = dict.fromkeys(_target(one.step) for one in worst)
+            if worst[0].perhaps_bare:
+                yield Doubt(
+                    f"not all tips of the {called(worst[0].step)} stand over a well "
+                    f"{at(worst[0].step.line)}, and a pause asks for tips to be taken out before"
+                )
+                continue
             warning = ""
             if _is_harmless(worst[0], case):
                 warning = "They hold nothing, and stand beyond the labware."

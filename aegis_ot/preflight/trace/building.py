@@ -91,6 +91,7 @@ class _Builder:
         self._heights: dict[Tip, tuple[Well, float]] = {}
         self._cycle: dict[str, tuple[object, set[OperationKind]]] = {}
         self._strayed: dict[Tip, Beside] = {}
+        self._thinned = False
 
     def run(self, log: Sequence[Record]) -> Trace:
         self._trace.log = log
@@ -151,6 +152,7 @@ class _Builder:
         said = read_pause(event.text, self._words, self._trace.labware, self._slots)
         if said.shaken:
             self._trace.shaken.append((self._index, None))
+        self._thinned = self._thinned or said.thinned
         if said.tips:
             for key in self._trace.labware:
                 self._box.refill_rack(key, returned_too=True)
@@ -232,7 +234,7 @@ class _Builder:
         bare = {nozzle: tip for nozzle, tip, ref in placed if tip is not None and ref is None}
         if bare:
             holding = any(one.source is not None for tip in bare.values() for one in tip.layers)
-            beside = Beside(step, tuple(bare), holding)
+            beside = Beside(step, tuple(bare), holding, perhaps_bare=self._thinned)
             self._trace.beside.append(beside)
             if step.kind is OperationKind.ASPIRATE:
                 self._strayed.update(dict.fromkeys(bare.values(), beside))

@@ -34,7 +34,8 @@ class Intervention:
 
     Attributes:
         replaced: Keys of labware that counts as new afterwards.
-        tips: Whether used tips were replaced.
+        tips: Whether used tips were replaced, or taken out.
+        thinned: Whether tips were taken out: a rack has gaps that nobody saw.
         shaken: Whether plates were mixed by hand or on a shaker.
         volumes_unsure: Whether wells may have been filled or emptied by hand.
     """
@@ -43,6 +44,7 @@ class Intervention:
     tips: bool = False
     shaken: bool = False
     volumes_unsure: bool = True
+    thinned: bool = False
 
 
 Words = Mapping[str, Sequence[str]]
@@ -68,20 +70,23 @@ def read_pause(
     # "Remove the foil from the plate" is done to the foil.
     things = frozenset().union(*(one for one in clauses if "covers" not in one)) & _LABWARE
     named = _named(text[:_LONGEST], labware, slots)
-    tips = "tips" in said and not said.isdisjoint(("replace", "new", "refill"))
+    thinned = any({"tips", "away"} <= clause for clause in clauses)
+    tips = thinned or ("tips" in said and not said.isdisjoint(("replace", "new", "refill")))
     shaken = "shake" in said
     if not things and not named:
         aside = not said.isdisjoint(("tips", "covers"))
         if "replace" not in said or aside:
             filled = "refill" in said and "tips" not in said  # "Refill the tube"
-            return Intervention(tips=tips, shaken=shaken, volumes_unsure=filled or not aside)
+            return Intervention(
+                tips=tips, shaken=shaken, volumes_unsure=filled or not aside, thinned=thinned
+            )
         things = frozenset({"plate"})  # "Replace and resume"
     # What is brought back is the same plate.
     away = "away" in said and "back" not in said
     if not away and said.isdisjoint(("replace", "new")):
-        return Intervention(tips=tips, shaken=shaken)
+        return Intervention(tips=tips, shaken=shaken, thinned=thinned)
     meant = named or {key for key, info in labware.items() if _may_be(info, things)}
-    return Intervention(frozenset(meant), tips, shaken)
+    return Intervention(frozenset(meant), tips, shaken, thinned=thinned)
 
 
 def _may_be(info: LabwareInfo, things: frozenset[str]) -> bool:

@@ -41,12 +41,14 @@ class Beside:
         nozzles: Theirs.
         holding: Whether one of them held liquid.
         missed: Whether one that drew air so was to give liquid to a well later.
+        perhaps_bare: Whether a pause before asked for tips to be taken out: it may be these.
     """
 
     step: Operation
     nozzles: tuple[str, ...]
     holding: bool
     missed: bool = False
+    perhaps_bare: bool = False
 
 
 @dataclass

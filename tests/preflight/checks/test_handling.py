@@ -504,3 +504,48 @@ def test_every_other_tip_may_be_left_out_of_the_rack(label: str, severity: str) 
     on_the_plate = [one for one in found(report, "HND-1") if one.wells[0].slot == "1"]
     assert {one.severity.value for one in on_the_plate} == {severity} - {""}
     assert severity or not found(report, "HND-1")
+
+
+@pytest.mark.parametrize(
+    ("pause", "accused"),
+    [
+        ("Take the tips out of rows B to H of the rack", False),
+        ("Remove all tips but those of row A, then resume", False),
+        ("Remove the foil", True),
+        ("Take the plate out and check that the tips are seated", True),
+    ],
+)
+def test_tips_that_a_pause_asks_to_take_out_may_stand_over_nothing(
+    pause: str, accused: bool
+) -> None:
+    report = ot2(
+        f"""
+        ctx.pause("{pause}")
+        m300.pick_up_tip()
+        m300.aspirate(50, trough["A1"])
+        m300.dispense(50, plate["B1"])
+        m300.drop_tip()
+        """
+    )
+    assert bool(found(report, "HND-1")) is accused
+    assert ("HND-1" in {one.rule for one in report.undecided}) is not accused
+
+
+@pytest.mark.parametrize(("pause", "accused"), [("Remove the used tips", False), ("Go on", True)])
+def test_returned_tips_that_a_pause_asks_to_take_out_are_gone(pause: str, accused: bool) -> None:
+    report = ot2(
+        f"""
+        for name in ("A1", "A2"):
+            deep[name].load_liquid(ctx.define_liquid(f"Sample {{name}}", "", "#fff"), 900)
+        pip.pick_up_tip(racks[1]["A1"])
+        pip.transfer(50, deep["A1"], plate["A1"], new_tip="never")
+        pip.return_tip()
+        ctx.pause("{pause}")
+        pip.reset_tipracks()
+        pip.pick_up_tip(racks[1]["A1"])
+        pip.transfer(50, deep["A2"], plate["A2"], new_tip="never")
+        pip.drop_tip()
+        """,
+        "2.14",
+    )
+    assert bool(found(report, "GEN-1")) is accused
