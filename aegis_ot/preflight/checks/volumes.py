@@ -58,6 +58,12 @@ class VolumeBookkeeping(Check):
                 does = "is filled to" if one.overfilled else "is drawn from by"
                 yield Doubt(f"{well.ref} {does} {microlitres(one.volume)}, and {why}")
                 continue
+            if one.overfilled and _is_declared_as_made(one):
+                yield Doubt(
+                    f"{well.ref} is given {microlitres(_given(well))}, and about as much is "
+                    "declared for it (load_liquid): that may be what it will hold"
+                )
+                continue
             if not one.overfilled and well.declared is None:
                 if (
                     well.ref in case.unsure
@@ -79,6 +85,19 @@ class VolumeBookkeeping(Check):
             first, warning = min(told, key=lambda one: (bool(one[1]), one[1] != _DECLARED))
             later = together[together.index(first) :]
             yield _violation(first, warning, max(one.volume for one in later))
+
+
+def _given(well: Well) -> float:
+    """µL of other wells' liquid that the run brings to a well."""
+    return sum(one.volume for one in well.received)
+
+
+def _is_declared_as_made(imbalance: Imbalance) -> bool:
+    """Whether a well overflows only because what the run makes there is declared beforehand."""
+    well, given = imbalance.visit.well, _given(imbalance.visit.well)
+    declared = well.declared or 0.0
+    fits = imbalance.volume - declared <= well.capacity
+    return fits and declared > 0 and abs(given - declared) <= _INEXACT * declared
 
 
 def _all_short(case: RuleContext) -> set[str]:

@@ -549,3 +549,17 @@ def test_returned_tips_that_a_pause_asks_to_take_out_are_gone(pause: str, accuse
         "2.14",
     )
     assert bool(found(report, "GEN-1")) is accused
+
+
+@pytest.mark.parametrize(("declared", "open_"), [(200, True), (196, True), (300, False)])
+def test_what_the_run_makes_may_be_declared_beforehand(declared: int, open_: bool) -> None:
+    report = ot2(
+        f"""
+        made = ctx.define_liquid("Reaction", "", "#fff")
+        plate["A1"].load_liquid(made, {declared})
+        pip.transfer(200, deep["A1"], plate["A1"])
+        """,
+        "2.14",
+    )
+    assert bool(found(report, "GEN-3")) is not open_
+    assert ("GEN-3" in {one.rule for one in report.undecided}) is open_
