@@ -201,10 +201,15 @@ class Trace:
         """Whether ``well`` was mixed or shaken after ``index`` and before ``before``."""
         if any(index < last and first < before for first, last in well.mixes):
             return True
+        # Labware that no tip ever met is another name of what stands there.
         return any(
-            index < at < before and (keys is None or well.ref.labware in keys)
+            index < at < before and (not keys or well.ref.labware in keys or not keys & self._met)
             for at, keys in self.shaken
         )
+
+    @cached_property
+    def _met(self) -> Set[str]:
+        return {well.ref.labware for well in self.wells.values()}
 
 
 _FEWEST_EMPTIED = 2

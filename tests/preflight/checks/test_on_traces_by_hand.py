@@ -348,6 +348,18 @@ def dilution(mixed: bool = True, one_tip: bool = True) -> Bench:
     return bench
 
 
+@pytest.mark.parametrize(("shaken", "told"), [("plate", 0), ("lidded", 0), ("source", 1)])
+def test_what_no_tip_met_is_shaken_in_the_place_of_a_plate(shaken: str, told: int) -> None:
+    """Loaded again, with its lid on, a plate goes by another name."""
+    roles = {"sample": "source:A1", "dye": "source:C1", "sample_well": "plate:A1"}
+    bench = Bench()
+    transfer(bench, "source:A1", "plate:A1")
+    transfer(bench, "source:C1", "plate:A1", 100)
+    trace = bench.trace()
+    trace.shaken.append((1000, frozenset({shaken})))
+    assert len(broken(case_of(trace, "bradford", roles), "BRD-4")) == told
+
+
 def test_a_series_that_is_mixed_with_fresh_tips_is_sound() -> None:
     case = case_of(dilution(one_tip=False).trace(), "serial_dilution", SERIES)
     for rule in ("SD-1", "SD-2", "SD-3", "SD-4", "SD-5"):
