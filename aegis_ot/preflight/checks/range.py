@@ -54,7 +54,7 @@ class VolumeInRange(Check):
         for mix in _mixes(case):
             step, well = mix.step, mix.step.well
             least, most = step.pipette.min_volume, step.pipette.max_volume
-            low = step.volume < _TOLERATED * least
+            low = EMPTY < step.volume < _TOLERATED * least
             swapped = mix.times >= _MORE and mix.times >= _TIMES_THE_VOLUME * step.volume
             if well is None:
                 continue

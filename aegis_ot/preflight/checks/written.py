@@ -152,6 +152,10 @@ def _cut(
         why = f"{microlitres(short)} are lacking."
     elif not others and moved >= _ROUNDING:
         why = "All that was drawn goes to this well."
+    elif one.visit and _mixes_next(one.visit):
+        why = (
+            "The tip has drawn nothing before, and mixes there next: what clings to it may matter."
+        )
     elif emptied:
         why = "What is left in the tip is emptied there, and nothing is drawn from it."
     yield _violation(told, step, well.ref, "cut", why)
@@ -162,6 +166,14 @@ def _before(visit: Visit) -> Well | None:
     mine = [one for one in visit.tip.visits if one.session == visit.session]
     earlier = [one.well for one in mine if one.index < visit.index]
     return earlier[-1] if earlier else None
+
+
+def _mixes_next(visit: Visit) -> bool:
+    """Whether a tip that met nothing before mixes in the well that it is emptied into."""
+    later = (one for one in visit.tip.visits if one.index > visit.index)
+    following = next(later, None)
+    drawn = visit.carried or visit.met
+    return not drawn and following is not None and following.mixing and following.well is visit.well
 
 
 def _short_by_the_gap(case: RuleContext, load: Load) -> Iterator[Violation]:

@@ -563,3 +563,25 @@ def test_what_the_run_makes_may_be_declared_beforehand(declared: int, open_: boo
     )
     assert bool(found(report, "GEN-3")) is not open_
     assert ("GEN-3" in {one.rule for one in report.undecided}) is open_
+
+
+@pytest.mark.parametrize(
+    ("mix", "severity"), [("mix(2, 50)", "warning"), ("mix(2, 50, plate['B1'])", "error")]
+)
+def test_an_empty_tip_that_mixes_next_may_bring_what_clings_to_it(mix: str, severity: str) -> None:
+    report = ot2(
+        f"""
+        pip.pick_up_tip()
+        pip.dispense(50, plate["A1"])
+        pip.{mix}
+        pip.drop_tip()
+        """,
+        "2.13",
+    )
+    assert [one.severity.value for one in found(report, "HND-4")] == [severity]
+
+
+def test_a_mix_of_nothing_is_not_inexact() -> None:
+    code = "pip.pick_up_tip()\npip.mix(2, {}, plate['A1'])\npip.drop_tip()"
+    assert not found(ot2(code.format(0), "2.22"), "HND-3")
+    assert found(ot2(code.format(5), "2.22"), "HND-3")
