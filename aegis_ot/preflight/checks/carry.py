@@ -14,7 +14,7 @@ from ..rules import role_names
 from ..source import comparable
 from ..trace import Contact, Met, Tip, Visit, Well
 from .check import Check, Doubt, Result, Violation, surest
-from .practice import is_given_to_all, made_after, only_rinses, was_rinsed
+from .practice import is_given_to_all, made_after, only_rinses, rinsed_with, was_rinsed
 from .rule_context import RuleContext, carried_liquids
 
 _IN_ALL = "All that is still made of it is given that liquid too: the tip brought nothing new."
@@ -132,6 +132,8 @@ class Carry(Check):
         well = visit.well
         if case.same_liquid(origin, well):
             return True
+        if met.well is origin and not self.stock and rinsed_with(case, visit, origin):
+            return True  # what is left of a rinse
         if self.via_destination:
             is_of_others = _was_filled(case, visit, origin, met) != (self.via_destination == "only")
             if is_of_others:

@@ -66,6 +66,18 @@ def only_rinses(case: RuleContext, well: Well) -> bool:
     return (thrown or _is_bath(well)) and case.is_one_liquid(well)
 
 
+def rinsed_with(case: RuleContext, visit: Visit, origin: Well) -> bool:
+    """Whether all that the tip drew of a shared liquid before went to the waste."""
+    earlier = [one for one in visit.tip.visits if one.index < visit.index]
+    kept = [one for one in earlier if one.well.ref not in case.waste]
+    return (
+        bool(case.waste)
+        and case.is_one_liquid(origin)
+        and any(one.well is origin and one.kind is OperationKind.ASPIRATE for one in kept)
+        and not any(given.source is origin for one in kept for given in one.brought)
+    )
+
+
 def _is_bath(well: Well) -> bool:
     """Whether it is mixed again and again, and serves nothing else."""
     return len(well.mixes) > 1 and all(one.mixing for one in well.visits)

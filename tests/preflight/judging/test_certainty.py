@@ -139,13 +139,15 @@ def test_a_step_that_is_left_out_accuses_nobody(step: str, accused: bool) -> Non
     assert ("PCR-1" in {one.rule for one in report.undecided}) is not accused
 
 
-def test_what_tips_are_rinsed_with_is_no_carry_over() -> None:
+@pytest.mark.parametrize("also", ["", "one.transfer(50, water, deep['H12'])"])
+def test_what_tips_are_rinsed_with_is_no_carry_over(also: str) -> None:
     report = _report(
-        """
+        f"""
         waste, water, second = trough["A12"], trough["A1"], trough["A2"]
+        {also}
         load([water, second], "water")
         for n, well in enumerate(deep.rows()[0]):
-            load([well], f"Sample {n}")
+            load([well], f"Sample {{n}}")
         one.pick_up_tip()
         for sample, well in zip(deep.rows()[0], plate.rows()[0]):
             one.transfer(50, sample, well, new_tip="never")
