@@ -1,6 +1,6 @@
 """Whether a qualification's claims are true, and what a fit on its frames brings: simulated labs.
 
-``python -m benchmarks.qualification [--labs 20] [--truth 3] [--seed 44000] [--fit N] [--json OUT]``
+``python -m benchmarks.qualification [--labs 20] [--truth 5] [--seed 44000] [--fit N] [--json OUT]``
 ``python -m benchmarks.qualification --duration``: robot time of 48 deliveries, estimated.
 
 Each laboratory is a camera, light, pipette and liquid drawn at random. Its truth are the shares
@@ -26,6 +26,7 @@ import numpy as np
 
 from aegis_ot.planted import LEFT, NORMAL
 from aegis_ot.qualification.certificate import count_liquid
+from aegis_ot.qualification.counting import CAUGHT
 from aegis_ot.qualification.frames import write_frames
 from aegis_ot.qualification.opening import JudgedDelivery
 from aegis_ot.qualification.plan import CALIBRATING, QualificationPlan, make_plan
@@ -160,53 +161,65 @@ def counted(deliveries: Sequence[JudgedDelivery], plan: QualificationPlan) -> di
     return count_liquid(plan.liquids[0], deliveries, plan)
 
 
-def coverage(lab: Lab, further: int) -> dict[str, Any]:
-    """The claims of a lab's first qualification beside its truth from ``further`` ones."""
-    first = lab.run(0)
-    claim = counted(first.judged(), first.plan)
-    told: list[JudgedDelivery] = []
-    for number in range(1, further + 1):
-        told += lab.run(number).judged()
-    truth = counted(told, first.plan)
-    rows = [
-        {"claim": kind, **_beside(claim["by_kind"][kind], truth["by_kind"][kind])}
-        for kind in claim["by_kind"]
-    ]
-    rows.append({"claim": "all", **_beside(claim["caught"], truth["caught"])})
-    rows.append({"claim": "normals", **_beside(claim["normals_flagged"], truth["normals_flagged"])})
-    left = [each for each in told if each.planned.kind == LEFT]
-    sizes = sorted({each.planned.share for each in left})
-    rates = {
-        size: float(np.mean([each.is_flagged for each in left if each.planned.share == size]))
-        for size in sizes
-    }
+def coverage(
+    judged: Sequence[JudgedDelivery], told: Sequence[JudgedDelivery], plan: QualificationPlan
+) -> list[dict[str, Any]]:
+    """The claims of a qualification beside the truth.
+
+    Args:
+        judged: Its deliveries.
+        told: Those of further qualifications of the same laboratory.
+        plan: Of the first.
+    """
+    claim, truth = counted(judged, plan), counted(told, plan)
+    pairs = [
+        *((kind, claim["by_kind"][kind], truth["by_kind"][kind]) for kind in claim["by_kind"]),
+        *(
+            ("one size", row["caught"], same["caught"])
+            for row in claim["rows"] for same in truth["rows"]
+            if row["kind"] == same["kind"] == LEFT and row["share"] == same["share"]
+        ),
+        ("all", claim["caught"], truth["caught"]),
+        ("normals", claim["normals_flagged"], truth["normals_flagged"]),
+    ]  # fmt: skip
+    rows = [{"claim": name, **_beside(*pair)} for name, *pair in pairs]
     if claim["smallest_leftover"]:
-        rows.append({"claim": "smallest", **_smallest(claim["smallest_leftover"], rates)})
-    return {"lab": f"{lab.seed}, {lab.pipette}, {lab.liquid}", "rows": rows}
+        sizes = {
+            row["share"]: (row["caught"]["hits"], row["caught"]["of"])
+            for row in truth["rows"] if row["kind"] == LEFT
+        }  # fmt: skip
+        rows.append({"claim": "smallest", **_smallest(claim["smallest_leftover"], sizes)})
+    return rows
 
 
 def _beside(claim: dict[str, Any], truth: dict[str, Any]) -> dict[str, Any]:
     rate = truth["hits"] / truth["of"]
-    # The truth is counted too: its interval has to meet the claim's.
-    return {
-        "low": claim["low"], "high": claim["high"], "truth": rate,
-        "covered": claim["low"] <= rate <= claim["high"],
-        "met": claim["low"] <= truth["high"] and truth["low"] <= claim["high"],
-    }  # fmt: skip
+    covered = claim["low"] <= rate <= claim["high"]
+    return {"low": claim["low"], "high": claim["high"], "truth": rate, "covered": covered}
 
 
-def _smallest(claim: dict[str, Any], rates: dict[float, Any]) -> dict[str, Any]:
+def _smallest(claim: dict[str, Any], sizes: dict[float, tuple[int, int]]) -> dict[str, Any]:
     """The truth lies between the largest size that is caught less often and the next."""
-    missed = [size for size, rate in rates.items() if rate < 0.9]
-    after = [size for size in rates if not missed or size > max(missed)]
-    low, high = (max(missed) if missed else 0.0), (min(after) if after else None)
-    meets = (claim["high"] is None or claim["high"] >= low) and (
+    rates = dict(zip(sizes, rising(list(sizes.values())), strict=True))
+    low = max((size for size, rate in rates.items() if rate < CAUGHT), default=0.0)
+    high = min((size for size, rate in rates.items() if rate >= CAUGHT), default=None)
+    covered = (claim["high"] is None or (high is not None and claim["high"] >= low)) and (
         high is None or claim["low"] <= max(high, claim["planted"])  # "this or less"
     )
-    return {
-        "low": claim["low"], "high": claim["high"], "truth": [low, high], "covered": meets,
-        "met": meets,
-    }  # fmt: skip
+    return {"low": claim["low"], "high": claim["high"], "truth": [low, high], "covered": covered}
+
+
+def rising(counts: Sequence[tuple[int, int]]) -> list[float]:
+    """Rates that never fall from one size to the next, nearest to what was counted (isotonic)."""
+
+    def pooled(first: int, last: int) -> float:
+        part = counts[first : last + 1]
+        return sum(hits for hits, _ in part) / sum(of for _, of in part)
+
+    many = len(counts)
+    return [
+        max(min(pooled(a, b) for b in range(at, many)) for a in range(at + 1)) for at in range(many)
+    ]
 
 
 def fitted(lab: Lab, further: int, folder: Path, start: str = "shipped") -> dict[str, Any]:
@@ -279,11 +292,9 @@ def show(found: Sequence[dict[str, Any]]) -> str:
     """The claims that hold, of those made."""
     rows = [row for lab in found for row in lab["rows"]]
     lines = [f"{len(found)} simulated laboratories, {len(rows)} claims"]
-    for name in dict.fromkeys(row["claim"] for row in rows):
-        alike = [row for row in rows if row["claim"] == name]
-        covered, met = (sum(row[key] for row in alike) for key in ("covered", "met"))
-        lines.append(f"{name:10} covered {covered} of {len(alike)}, intervals meet in {met}")
-    lines.append(f"{'in all':10} covered {sum(row['covered'] for row in rows)} of {len(rows)}")
+    for name in (*dict.fromkeys(row["claim"] for row in rows), "in all"):
+        alike = [row["covered"] for row in rows if name in (row["claim"], "in all")]
+        lines.append(f"{name:10} {sum(alike)} of {len(alike)} hold")
     return "\n".join(lines) + "\n"
 
 
@@ -291,7 +302,7 @@ def main(arguments: list[str] | None = None) -> None:
     """Run and print."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.qualification", description=__doc__)
     parser.add_argument("--labs", type=int, default=20)
-    parser.add_argument("--truth", type=int, default=3, help="further qualifications of each")
+    parser.add_argument("--truth", type=int, default=5, help="further qualifications of each")
     parser.add_argument("--seed", type=int, default=44_000)
     parser.add_argument("--fit", type=int, default=0, help="so many laboratories fit a model")
     parser.add_argument("--own", action="store_true", help="they fit a scorer of their own, too")
@@ -306,7 +317,11 @@ def main(arguments: list[str] | None = None) -> None:
         return
     found = []
     for number in range(0 if given.fit else given.labs):
-        found.append(coverage(Lab.drawn(given.seed + number), given.truth))
+        lab = Lab.drawn(given.seed + number)
+        first = lab.run(0)
+        told = [each for n in range(1, given.truth + 1) for each in lab.run(n).judged()]
+        rows = coverage(first.judged(), told, first.plan)
+        found.append({"lab": f"{lab.seed}, {lab.pipette}, {lab.liquid}", "rows": rows})
         sys.stderr.write(f"{json.dumps(found[-1])}\n")
     with tempfile.TemporaryDirectory(prefix="aegis-ot-") as folder:
         for number in range(given.fit):

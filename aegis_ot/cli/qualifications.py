@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from ..errors import AegisError, ConfigurationError
-from .paths import write_text
+from .paths import empty_folder, write_text
 from .plain_text import echo
 
 if TYPE_CHECKING:
@@ -108,11 +108,15 @@ def qualify(
     told = None if previous is None else _certificate_in(previous)
     if of is not None:
         plan, store, named = _run_from_app(of, data, run)
-        _free(out)
+        empty_folder(out)
         _finish(plan, store, named, out, told)
         return
     plan = _plan(robot, pipette, liquid or ["dye"], minutes, seed, volume, tips)
+    if robot is None:
+        _rehearse(plan)
     settings = _given(sidecar, token)
+    if simulated and settings:
+        raise ConfigurationError("--simulated has a sidecar of its own: no --sidecar, no --token.")
     if write is not None:
         _write_protocol(write, plan, settings)
         if sidecar is None:
@@ -123,7 +127,7 @@ def qualify(
         # What the robot is set to, this machine cannot see: the protocol says who watches.
         settings = _given(*_watching(sidecar, token))
         known = _runs_in(data)
-    _free(out)
+    empty_folder(out)
     _write_protocol(out / _PROTOCOL, plan, settings)
     if simulated:
         from ..qualification.running import run_simulated
@@ -165,6 +169,10 @@ def _plan(
 def _write_protocol(path: Path, plan: QualificationPlan, settings: dict[str, Any]) -> None:
     from ..qualification.protocol import protocol_text
 
+    if path.exists():
+        raise ConfigurationError(
+            f"{path} is there already. A run is opened with the file that was run: name a new one."
+        )
     write_text(path, protocol_text(plan, settings))
     echo(
         f"{path}: {len(plan.deliveries)} deliveries of {plan.volume_ul:g} µL, "
@@ -173,10 +181,18 @@ def _write_protocol(path: Path, plan: QualificationPlan, settings: dict[str, Any
     )
 
 
-def _free(out: Path) -> None:
-    from .paths import empty_folder
+def _rehearse(plan: QualificationPlan) -> None:
+    """Refuse what a robot would refuse, as tips of another name, where there is an opentrons."""
+    from ..adapters.opentrons.rehearsal import Script, record
+    from ..qualification.protocol import protocol_text
+    from ..workbench.engines import EngineMissing, engine_for, need_of
 
-    empty_folder(out)
+    text = protocol_text(plan)
+    try:
+        if not engine_for(need_of(text)).python:
+            record(Script(text, _PROTOCOL))
+    except EngineMissing:
+        pass
 
 
 def _given(sidecar: str | None, token: str | None) -> dict[str, str]:

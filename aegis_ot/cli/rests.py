@@ -90,8 +90,9 @@ def rest(
             left.warnings.append(f"{protocol.name} was changed since the run.")
             if write is not None and not changed:
                 raise ConfigurationError(
-                    f"{protocol} is not what the run ran: it was changed since. Name the run's own "
-                    "protocol, or add --changed if it still makes the same deliveries."
+                    f"{protocol} is not what the run ran: it was changed since. Name the file "
+                    "that was run (a wrapped one, if it was wrapped), or add --changed if it still "
+                    "makes the same deliveries."
                 )
     for line in _told(left):
         echo(line)

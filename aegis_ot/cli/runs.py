@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import sys
 import time
 from collections.abc import Iterator
@@ -169,7 +170,10 @@ def verify(
             raise
         own = None
         echo(f"Only the keys named by --key count: {one_line(error)}", err=True)
-    keys = {one.strip().lower() for one in key or ()} | ({own} if own else set())
+    named = {one.strip().lower() for one in key or ()}
+    if garbled := [one for one in named if not re.fullmatch("[0-9a-f]{64}", one)]:
+        raise ConfigurationError(f"--key {garbled[0]}: a public key has 64 hexadecimal digits.")
+    keys = named | ({own} if own else set())
     found = verify_runs(store, keys, [run] if run else [])
     if run and found[-1].state == "unchained":
         known_run(store, run)

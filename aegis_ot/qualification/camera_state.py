@@ -15,10 +15,8 @@ SHARPNESS_CHANGED, LIGHT_CHANGED, MOVED_PX = 0.25, 0.15, 4.0
 """From when a change is told: shares, and px. Chosen, not measured: half of what a well-kept
 camera's own frames differ by is far below them."""
 
-CAMERA = {"sharpness", "light", "places", "size"}
-"""What :func:`changes` compares."""
-
-_FRAME = "transit"
+_FRAME = "post_dispense"
+"""The tip hangs free and is empty: what another liquid looks like is no drift of the camera."""
 
 
 def camera_state(

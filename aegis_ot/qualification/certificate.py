@@ -16,12 +16,12 @@ from ..sidecar.store import Store
 from ..vision.types import Detector
 from ..vocabulary import Outcome
 from ..worldmodel.recorded import run_source
-from .camera_state import CAMERA, camera_state, changes
+from .camera_state import camera_state, changes
 from .counting import Rate, rate_of, smallest_leftover
 from .opening import JudgedDelivery, open_plan
 from .plan import QualificationPlan
 
-FORMAT, VERSION = "aegis-ot qualification", 1
+FORMAT, VERSION = "aegis-ot qualification", 2
 
 WORDS = {
     LEFT: "{} % of the volume left in the tip",
@@ -112,14 +112,15 @@ def check_certificate(told: Any) -> None:
     Raises:
         ConfigurationError: It is no certificate of this version.
     """
-    is_one = isinstance(told, dict) and (told.get("format"), told.get("version")) == (
-        FORMAT, VERSION,
-    )  # fmt: skip
-    camera = told.get("camera") if is_one else None
-    if not isinstance(camera, dict) or _COMPARED - told.keys() or CAMERA - camera.keys():
-        raise ConfigurationError(
-            "The file to compare with is no certificate of this version of aegis-ot qualify."
-        )
+    try:
+        if (told["format"], told["version"]) == (FORMAT, VERSION) and not _COMPARED - told.keys():
+            changes(told["camera"], told["camera"])  # half an hour later would be too late
+            return
+    except (AttributeError, KeyError, TypeError, ValueError):
+        pass
+    raise ConfigurationError(
+        "The file to compare with is no certificate of this version of aegis-ot qualify."
+    )
 
 
 def count_liquid(

@@ -122,7 +122,7 @@ def export_archive(data: Dataset, archive: Path, licence: str) -> int:
                 box = sample.detections[kind]
                 jpeg = _cut(sample.frames[kind], box, cut[kind]) if kind in cut else None
                 if jpeg is not None:
-                    packed.writestr(f"{written:04}_{kind.value}.jpg", jpeg)
+                    packed.writestr(_undated(f"{written:04}_{kind.value}.jpg"), jpeg)
             rows.append(
                 {
                     "delivery": written,
@@ -137,12 +137,19 @@ def export_archive(data: Dataset, archive: Path, licence: str) -> int:
                 }
             )
         about = {"source": data.source, "licence": licence.strip(), "deliveries": rows}
-        packed.writestr("deliveries.json", json.dumps(about, indent=1) + "\n")
-        packed.writestr("LICENCE.txt", licence.strip() + "\n")
+        packed.writestr(_undated("deliveries.json"), json.dumps(about, indent=1) + "\n")
+        packed.writestr(_undated("LICENCE.txt"), licence.strip() + "\n")
     if not written:
         archive.unlink()
         raise DatasetError(f"{data.root}: no tip was found in its frames; there is nothing to cut.")
     return written
+
+
+def _undated(name: str) -> zipfile.ZipInfo:
+    """An entry of an archive that does not say when it was written."""
+    entry = zipfile.ZipInfo(name)
+    entry.external_attr = 0o644 << 16
+    return entry
 
 
 _LOOKS = {"water": "clear", "dye": "dye"}

@@ -253,7 +253,7 @@ def plan_in(text: str, name: str = "the protocol") -> QualificationPlan:
         for node in ast.parse(text).body:
             if isinstance(node, ast.Assign) and getattr(node.targets[0], "id", "") == "PLAN":
                 return QualificationPlan.from_json(ast.literal_eval(node.value))
-    except (SyntaxError, ValueError, TypeError, KeyError):
+    except (AttributeError, KeyError, SyntaxError, TypeError, ValueError):
         pass
     raise ConfigurationError(f"{name} is no protocol that aegis-ot qualify wrote: it has no plan.")
 

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import secrets
 from pathlib import Path
+from typing import Any
 
 from pydantic import SecretStr
 
 from ..adapters.opentrons.rehearsal import Script, play
 from ..errors import ConfigurationError
+from ..guard import guard
+from ..planted import planted
 from ..sidecar import Analyser, SidecarConfig, make_analyser, running_sidecar
 from ..sidecar.config import CascadeSettings
 from ..simulation import SessionParameters, SimulatedCamera
@@ -53,5 +56,10 @@ def run_simulated(
     config = SidecarConfig(port=0, token=SecretStr(token), data=data, cascade=TRUSTING, audit=False)
     with running_sidecar(config, shown, analyser or make_analyser(TRUSTING)) as url:
         settings = {"sidecar": url, "token": token, "run_id": run, "watch_simulation": True}
-        play(Script(protocol_text(plan, settings), FILE), lambda run: run)
+
+        def watched(protocol: Any) -> Any:
+            # The text is the one that was written: the record has its digest.
+            return planted(plan.to_json())(guard(protocol, **settings))
+
+        play(Script(protocol_text(plan), FILE), watched)
     return run

@@ -73,7 +73,10 @@ def rehearsed(path: Path, labware: Mapping[str, Any], parameters: Mapping[str, A
         ConfigurationError: It cannot be read or rehearsed.
         RehearsalError: It cannot be read, or the rehearsing process does not start.
     """
-    text = read_protocol(path)
+    try:
+        text = read_protocol(path)
+    except ConfigurationError as error:
+        raise ConfigurationError(f"{path}: {error}") from None
     around = surroundings_of(path, text, root_of(path, (Path.cwd(),)))
     script = Placed(
         text=with_own_values(path, text),
@@ -134,6 +137,8 @@ def plain_tree(text: str) -> ast.Module:
             raise NotPlain(_MEANS_MORE[name])
         if isinstance(node, ast.keyword) and name in _ARGUMENTS:
             raise NotPlain(_ARGUMENTS[name])
+        if isinstance(node, ast.FunctionDef) and (others := _decorators(node) - {"guard"}):
+            raise NotPlain(f"{node.name}() does what @{min(others)} makes of it")
         if isinstance(node, ast.Call):
             called = node.func.attr if isinstance(node.func, ast.Attribute) else ""
             most, more = _POSITIONAL.get(called, (len(node.args), ""))
@@ -143,6 +148,11 @@ def plain_tree(text: str) -> ast.Module:
             if more and (unread or len(node.args) > most):
                 raise NotPlain(more)
     return tree
+
+
+def _decorators(function: ast.FunctionDef) -> set[str]:
+    calls = (d.func if isinstance(d, ast.Call) else d for d in function.decorator_list)
+    return {ast.unparse(one).split(".")[-1] for one in calls}
 
 
 def tip_sessions(log: Sequence[Operation | Event]) -> list[TipSession]:

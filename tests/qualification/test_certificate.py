@@ -7,10 +7,12 @@ import zipfile
 from pathlib import Path
 from typing import Any
 
+import cv2
+import numpy as np
 import pytest
 
 from aegis_ot.errors import ConfigurationError
-from aegis_ot.qualification.camera_state import changes
+from aegis_ot.qualification.camera_state import camera_state, changes
 from aegis_ot.qualification.certificate import certificate
 from aegis_ot.qualification.frames import export_archive, true_samples, write_frames
 from aegis_ot.qualification.opening import open_plan
@@ -76,6 +78,23 @@ def test_a_camera_that_changed_is_told(made: dict[str, Any]) -> None:
     assert "9 px" in told
 
 
+def test_the_look_of_the_liquid_is_no_change_of_the_camera(
+    made: dict[str, Any], run: tuple[Store, str]
+) -> None:
+    deliveries, overview = open_plan(*run, PLAN)
+    full = {
+        keyframe["sequence"]
+        for entry in overview["trajectories"]
+        for keyframe in entry["keyframes"]
+        if keyframe["kind"] == "transit"
+    }
+    frame = run[0].frames_of(run[1])
+    assert len(full) == 24
+    black = cv2.imencode(".jpg", np.zeros((1080, 1920), np.uint8))[1].tobytes()
+    camera = camera_state(deliveries, lambda number: black if number in full else frame(number))
+    assert changes(camera, made["camera"]) == []
+
+
 def test_what_could_not_be_compared_is_told(made: dict[str, Any], run: tuple[Store, str]) -> None:
     now = made["camera"]
     nothing = now | {"sharpness": None, "light": None, "places": {}, "size": None}
@@ -119,6 +138,7 @@ def _assert_anonymous(archive: Path, run: str) -> None:
         told = packed.read("deliveries.json").decode()
         assert packed.read("LICENCE.txt").decode() == "CC0-1.0\n"
         pictures = [name for name in packed.namelist() if name.endswith(".jpg")]
+        assert {entry.date_time[0] for entry in packed.infolist()} == {1980}  # not today's
     assert run not in told
     assert "red" not in told
     assert json.loads(told)["source"] == "synthetic"

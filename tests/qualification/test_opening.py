@@ -7,13 +7,14 @@ from typing import Any
 
 import pytest
 
-from aegis_ot.adapters.opentrons.rehearsal import Script, play
+from aegis_ot.adapters.opentrons.rehearsal import Script, play, record
 from aegis_ot.errors import ConfigurationError
 from aegis_ot.qualification.certificate import count_liquid
 from aegis_ot.qualification.opening import open_plan
 from aegis_ot.qualification.plan import QualificationPlan, QualifyingDelivery
 from aegis_ot.qualification.protocol import protocol_text
 from aegis_ot.robot.wrapping import wrap
+from aegis_ot.run_view.plain_protocol import plan_of as rehearsed_plan
 from aegis_ot.sidecar import SidecarConfig, running_sidecar
 from aegis_ot.sidecar.store import Store
 from aegis_ot.sidecar.store.opening import open_store
@@ -50,6 +51,13 @@ def test_a_pipette_is_known_by_any_of_its_names(pipette: str, tmp_path: Path) ->
     plan = plan_of(pipette)
     delivered, _ = open_plan(run_of(plan, tmp_path), "q", plan)
     assert [each.outcome for each in delivered] == ["pass", "pass", "fail"]
+
+
+def test_nothing_is_planted_in_the_rehearsal_of_a_wrapped_protocol() -> None:
+    text = protocol_text(plan_of())
+    told, wrapped = (rehearsed_plan(record(Script(t, "q.py"))) for t in (text, wrap(text).text))
+    assert told == wrapped
+    assert [one.wells for one in told[0]] == [["3:A1"], ["3:B1"], ["3:C1"]]
 
 
 def test_another_seed_is_another_plan_though_its_wells_are_the_same(tmp_path: Path) -> None:

@@ -77,6 +77,9 @@ def test_a_protocol_carries_its_plan() -> None:
     assert plan_in(protocol_text(plan)) == plan
     with pytest.raises(ConfigurationError, match="no protocol that aegis-ot qualify wrote"):
         plan_in("PLAN = 'x'\n\ndef run(protocol):\n    pass\n")
+    for garbled in ("3", '"x"', "null", "[]", "{}"):
+        with pytest.raises(ConfigurationError, match="has no plan"):
+            plan_in(f"PLAN = {garbled!r}")
 
 
 @pytest.mark.parametrize(

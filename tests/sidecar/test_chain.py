@@ -455,6 +455,8 @@ def test_who_may_not_read_the_key_verifies_with_the_public_one(aegis: Command, k
     (kept / KEY_FILE).unlink()
     (kept / KEY_FILE).mkdir()  # root could read any file
     assert aegis("runs", "verify", "--data", kept).code == 2
+    garbled = aegis("runs", "verify", "--data", kept, "--key", public[1:])
+    assert (garbled.code, "64 hexadecimal digits" in garbled.err) == (2, True)
     said = aegis("runs", "verify", "--data", kept, "--key", public)
     assert (said.code, "cannot be read" in said.err) == (0, True)
 

@@ -73,6 +73,7 @@ class Rehearsal:
 
 
 _REHEARSING: ContextVar[Rehearsal | None] = ContextVar("aegis_ot_rehearsing", default=None)
+"""Found by its name where a wrapped protocol carries another copy of this module."""
 
 
 def rehearsal_under_way() -> Rehearsal | None:
