@@ -6,7 +6,7 @@ VENV   ?= .venv
 BIN    := $(VENV)/bin
 STAMP  := $(VENV)/.installed
 
-.PHONY: demo test numeric check sizes lint types contracts docs matrix bench clean
+.PHONY: demo test full numeric check sizes lint types contracts docs matrix bench clean
 
 $(STAMP): pyproject.toml
 	@echo "Installing into $(VENV), once: some minutes on a new machine."
@@ -22,6 +22,11 @@ demo: $(STAMP)
 # processes a core, since tests wait as much as they work.
 test: $(STAMP)
 	$(BIN)/python -m pytest -n 4 --dist loadfile --no-loadscope-reorder
+
+# The same with every protocol in each environment of the matrix; CI takes each third where an older
+# and a newer release run them all.
+full: export AEGIS_OT_FULL := 1
+full: matrix test
 
 # The tests of numbers once more as an older processor counts: its last digits are others.
 NUMERIC := $(addprefix tests/vision/,column test_calibration.py \

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import hashlib
 import time
 from collections.abc import Mapping, Sequence
@@ -35,8 +36,17 @@ WORKLIST = EXAMPLES / "normalisation_plate.py"
 KINDS = {"aspirate": 1, "transit": 2, "dispense": 3}
 
 
+@functools.cache
+def rehearsed(text: str, name: str) -> tuple[Recording, Planner]:
+    """Once for all tests: the same text does the same."""
+    planner = Planner()
+    recording = record(Script(text, name), [planner])
+    planner.finish()
+    return recording, planner
+
+
 def rehearse(path: Path) -> Recording:
-    return record(Script(path.read_text(encoding="utf-8"), path.name))
+    return rehearsed(path.read_text(encoding="utf-8"), path.name)[0]
 
 
 def stopped(
@@ -49,9 +59,7 @@ def stopped(
 ) -> Store:
     """A run that stopped: its first deliveries as judged, and some keyframes of the next one; and
     what its robot said in the ``end``, by default that this is all that it did."""
-    planner = Planner()
-    recording = record(Script(protocol.read_text(encoding="utf-8"), protocol.name), [planner])
-    planner.finish()
+    recording, planner = rehearsed(protocol.read_text(encoding="utf-8"), protocol.name)
     digest = hashlib.sha256(recording.text.encode()).hexdigest()
     store = Store(folder)
     about = planner.about(recording.labware)
@@ -95,7 +103,7 @@ def wells(left: Rest, standing: str) -> list[str]:
 
 
 def planned(text: str) -> tuple[list[RehearsedDelivery], dict[str, float]]:
-    return plan_of(record(Script(text, "finish.py")))
+    return plan_of(rehearsed(text, "finish.py")[0])
 
 
 def test_what_failed_or_is_undecided_is_never_done(tmp_path: Path) -> None:

@@ -29,7 +29,8 @@ class Environment:
         robots: Prefixes of the protocols that this release simulates.
         newest: The last apiLevel that it knows, 2.N.
         instead: Requirements in place of those of opentrons.
-        every: Of the protocols each so-manieth is run: another environment has this release too.
+        every: Of the protocols each so-manieth is run, unless ``AEGIS_OT_FULL`` is set: another
+            environment has this release too, or a newer and an older one have run them all.
     """
 
     name: str
@@ -95,7 +96,7 @@ MATRIX = (
     Environment(
         "py313-ot8", "3.13", "opentrons==8.8.2", newest=27, instead=("numpy>=2.1,<2.4",), every=3
     ),
-    Environment("py311-ot9", "3.11", "opentrons==9.0.0", newest=28),
+    Environment("py311-ot9", "3.11", "opentrons==9.0.0", newest=28, every=3),
     Environment("py312-ot10", "3.12", "opentrons>=10,<11", robots=("flex",)),
 )
 

@@ -23,8 +23,10 @@ ROOT = Path(__file__).parents[2]
 made = functools.cache(make_bundle)
 SMALL = Bundle("aegis_ot_0", "MADE", 1)
 SAFE = GOOD.replace("plate.wells()[8:10])", 'plate.wells()[8:10], new_tip="always")')
+BROKEN = SAFE + '    raise ValueError("here")\n'
+CONTAMINATED = (ROOT / "examples" / "demo" / "pcr_setup_contaminated.py").read_text("utf-8")
 RUN = """
-import io, json, logging, sys
+import io, json, logging, os, sys
 logging.disable(logging.CRITICAL)
 import opentrons.simulate as simulate
 
@@ -37,66 +39,76 @@ class Blocked:  # whatever opentrons has not brought along already
             raise ImportError(f"{name} is no part of Python or opentrons")
 
 sys.meta_path.insert(0, Blocked())
-text = open(sys.argv[1]).read()
-found = []
-for _ in range(2):
-    try:
-        log, _ = simulate.simulate(io.StringIO(text), "protocol.py", log_level="none")
-        found.append([entry["payload"].get("text", "") for entry in log])
-    except Exception as error:
-        found.append(str(error))
-mine = sorted(name for name in sys.modules if name.startswith("aegis"))
-print("FOUND", json.dumps({"runs": found, "modules": mine}))
+for text in json.load(open(sys.argv[1])):
+    if os.fork():
+        os.wait()
+        continue
+    found = []
+    for _ in range(2):
+        try:
+            log, _ = simulate.simulate(io.StringIO(text), "protocol.py", log_level="none")
+            found.append([entry["payload"].get("text", "") for entry in log])
+        except Exception as error:
+            found.append(str(error))
+    print("FOUND", json.dumps(found), flush=True)
+    os._exit(0)
 """
 
 
-def alone(text: str, folder: Path, python: str | Path = sys.executable) -> dict[str, object]:
-    """Simulate twice in a fresh interpreter that has no aegis_ot."""
-    path = folder / "protocol.py"
-    path.write_text(text, encoding="utf-8")
+def alone(
+    texts: list[str], folder: Path, python: str | Path = sys.executable
+) -> list[list[list[str] | str]]:
+    """Simulate each twice, in a process of its own that has no aegis_ot."""
+    path = folder / "protocols.json"
+    path.write_text(json.dumps(texts), encoding="utf-8")
     bare = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
     hidden = "import sys; sys.modules['aegis_ot'] = None\n"  # importing it would fail
     done = subprocess.run(
         [str(python), "-c", hidden + RUN, str(path)],
         capture_output=True, text=True, cwd=folder, env=bare, check=False,
     )  # fmt: skip
-    assert "FOUND " in done.stdout, done.stderr[-3000:]
-    return dict(json.loads(done.stdout.rpartition("FOUND ")[2]))
+    found = [line[6:] for line in done.stdout.splitlines() if line.startswith("FOUND ")]
+    assert len(found) == len(texts), done.stderr[-3000:]
+    return [json.loads(runs) for runs in found]
 
 
-def test_an_unguarded_protocol_is_guarded_and_does_the_same(tmp_path: Path) -> None:
-    plain = alone(SAFE, tmp_path)["runs"]
-    told = alone(wrap(SAFE, {"assay": "generic"}, made()).text, tmp_path)
-    for before, after in zip(plain, told["runs"], strict=True):  # type: ignore[call-overload]
+@pytest.fixture(scope="module")
+def simulated(tmp_path_factory: pytest.TempPathFactory) -> list[list[list[str] | str]]:
+    """A plain protocol, the same wrapped, a guarded one and a broken one."""
+    wrapped = [
+        wrap(SAFE, {"assay": "generic"}, made()),
+        wrap(CONTAMINATED, bundle=made()),
+        wrap(BROKEN, bundle=made()),
+    ]
+    return alone([SAFE, *(one.text for one in wrapped)], tmp_path_factory.mktemp("wrapped"))
+
+
+def test_an_unguarded_protocol_is_guarded_and_does_the_same(simulated) -> None:  # type: ignore[no-untyped-def]
+    for before, after in zip(*simulated[:2], strict=True):
         assert [line for line in after if not line.startswith("aegis_ot: ")] == before
         assert after[-1].startswith("aegis_ot: Layer 1: ")
 
 
-def test_a_guarded_protocol_finds_the_guard_inside(tmp_path: Path) -> None:
-    text = (ROOT / "examples" / "demo" / "pcr_setup_contaminated.py").read_text(encoding="utf-8")
-    wrapped = wrap(text, bundle=made())
+def test_a_guarded_protocol_finds_the_guard_inside(simulated) -> None:  # type: ignore[no-untyped-def]
+    wrapped = wrap(CONTAMINATED, bundle=made())
     assert wrapped.guarded_before
-    told = alone(wrapped.text, tmp_path)["runs"]
-    assert all("Layer 1 found" in run for run in told)  # type: ignore[attr-defined]
+    assert all("Layer 1 found" in run for run in simulated[2])
     # The lines of the findings are the original's.
-    lines = text.splitlines()
-    assert len(wrapped.text.splitlines()) == len(lines)
-    assert "ProtocolRejected [line " in told[0]  # type: ignore[index]
+    assert len(wrapped.text.splitlines()) == len(CONTAMINATED.splitlines())
+    assert "ProtocolRejected [line " in simulated[2][0]
 
 
-def test_findings_and_errors_keep_their_lines(tmp_path: Path) -> None:
-    text = SAFE + '    raise ValueError("here")\n'
-    line = len(text.splitlines())
-    told = alone(wrap(text, bundle=made()).text, tmp_path)["runs"]
-    assert f"ValueError [line {line}]: here" in told[0]  # type: ignore[index]
+def test_findings_and_errors_keep_their_lines(simulated) -> None:  # type: ignore[no-untyped-def]
+    line = len(BROKEN.splitlines())
+    assert f"ValueError [line {line}]: here" in simulated[3][0]
 
 
 @pytest.mark.parametrize("environment", MATRIX, ids=lambda e: e.name)
 def test_it_runs_where_there_is_nothing_but_opentrons(environment, tmp_path):  # type: ignore[no-untyped-def]
     if not environment.ready or "ot2" not in environment.robots:
         pytest.skip(f"{environment.name} is not there, or simulates no OT-2")
-    told = alone(wrap(SAFE, bundle=made()).text, tmp_path, environment.interpreter)["runs"]
-    assert told[0][-1].startswith("aegis_ot: Layer 1: ")  # type: ignore[index]
+    (told,) = alone([wrap(SAFE, bundle=made()).text], tmp_path, environment.interpreter)
+    assert told[0][-1].startswith("aegis_ot: Layer 1: ")
 
 
 @pytest.mark.parametrize(
