@@ -14,7 +14,7 @@ from ..rules import role_names
 from ..source import comparable
 from ..trace import Contact, Met, Tip, Visit, Well
 from .check import Check, Doubt, Result, Violation, surest
-from .practice import is_given_to_all, made_after, only_rinses, rinsed_with, was_rinsed
+from .practice import is_given_to_all, made_after, rinsed_with, was_rinsed
 from .rule_context import RuleContext, carried_liquids
 
 _IN_ALL = "All that is still made of it is given that liquid too: the tip brought nothing new."
@@ -69,10 +69,9 @@ class Carry(Check):
         if self.unnamed:
             carriers.update(well for well in case.destinations if not case.of(well))
         so_far = _SoFar()
-        harmful = {well for well in carriers if not only_rinses(case, well)}
-        for visit in self._visits(case) if harmful else ():
+        for visit in self._visits(case) if carriers else ():
             for origin, met in so_far.carried(visit):
-                if origin not in harmful or origin is visit.well:
+                if origin not in carriers or origin is visit.well:
                     continue
                 if self._judge(case, visit, origin, met, so_far):
                     so_far.again(visit, origin, met)
@@ -116,6 +115,8 @@ class Carry(Check):
             if case.are_twins(origin, well):
                 so_far.twins.setdefault(origin, well)
             return self.stock or self.pooled  # else later visits are judged as the first
+        if met.well is origin and rinsed_with(case, visit, origin):
+            return self.stock or self.pooled  # what is left of a rinse
         if claimed is None or (case.left_over and self.pooled and _is_rising(case, origin, well)):
             so_far.rising.setdefault(origin, well)
             return False
@@ -132,8 +133,6 @@ class Carry(Check):
         well = visit.well
         if case.same_liquid(origin, well):
             return True
-        if met.well is origin and not self.stock and rinsed_with(case, visit, origin):
-            return True  # what is left of a rinse
         if self.via_destination:
             is_of_others = _was_filled(case, visit, origin, met) != (self.via_destination == "only")
             if is_of_others:

@@ -60,22 +60,13 @@ def was_rinsed(case: RuleContext, visit: Visit, origin: Well) -> bool:
     return rinses >= _RINSES
 
 
-def only_rinses(case: RuleContext, well: Well) -> bool:
-    """Whether a shared liquid goes to the waste alone, or nowhere: what tips are rinsed with."""
-    thrown = well in case.destinations and not case.made_of[well]
-    return (thrown or _is_bath(well)) and case.is_one_liquid(well)
-
-
 def rinsed_with(case: RuleContext, visit: Visit, origin: Well) -> bool:
-    """Whether all that the tip drew of a shared liquid before went to the waste."""
-    earlier = [one for one in visit.tip.visits if one.index < visit.index]
-    kept = [one for one in earlier if one.well.ref not in case.waste]
-    return (
-        bool(case.waste)
-        and case.is_one_liquid(origin)
-        and any(one.well is origin and one.kind is OperationKind.ASPIRATE for one in kept)
-        and not any(given.source is origin for one in kept for given in one.brought)
-    )
+    """Whether a shared liquid only rinsed the tip: in a bath, or all that it drew was wasted."""
+    if not case.is_one_liquid(origin):
+        return False
+    earlier = (one for one in visit.tip.visits if one.index < visit.index)
+    to = [one.well.ref for one in earlier for part in one.brought if part.source is origin]
+    return _is_bath(origin) or (bool(to) and all(ref in case.waste for ref in to))
 
 
 def _is_bath(well: Well) -> bool:
