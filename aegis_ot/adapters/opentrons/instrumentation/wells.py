@@ -190,6 +190,8 @@ class WellResolver:
         """
         top, well = self._top(info, name, well_core), info.wells[name]
         x, y = round(float(point.x - top.x), 2), round(float(point.y - top.y), 2)
+        if not (x or y):
+            return (0.0, 0.0)  # nearly always
         wide = several and not info.centers_channels
         reach_x, reach_y = (
             _SLACK_MM if wide and size > _NOZZLE_PITCH_MM else size / 2 + _BESIDE_MM
