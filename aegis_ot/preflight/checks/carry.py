@@ -23,6 +23,10 @@ _UNSAID = "Nothing in the protocol says what these wells held."
 _ONE_NAME = "All that it reaches is loaded as '{}': if that is one liquid, nothing new came to it."
 
 
+_Exempt = Literal["", "now", "ever"]
+"""Until when a liquid may be carried into a well."""
+
+
 @dataclass(frozen=True)
 class Carry(Check):
     """No tip that has met a liquid of ``carried`` touches, or delivers below the top of, a
@@ -111,10 +115,11 @@ class Carry(Check):
         place = (visit.tip, well, origin)
         if near and place in so_far.found:
             return True  # nothing new
-        if self._is_exempt(case, visit, origin, met):
+        if exempt := self._exemption(case, visit, origin, met):
             if case.are_twins(origin, well):
                 so_far.twins.setdefault(origin, well)
-            return self.stock or self.pooled  # else later visits are judged as the first
+            # Without these two later visits are judged as the first.
+            return exempt == "now" and (self.stock or self.pooled)
         if met.well is origin and rinsed_with(case, visit, origin):
             return self.stock or self.pooled  # what is left of a rinse
         if claimed is None or (case.left_over and self.pooled and _is_rising(case, origin, well)):
@@ -128,18 +133,23 @@ class Carry(Check):
             surest(so_far.found, place, violation)
         return near
 
-    def _is_exempt(self, case: RuleContext, visit: Visit, origin: Well, met: Met) -> bool:
-        """Whether the liquid may come into the well."""
+    def _exemption(self, case: RuleContext, visit: Visit, origin: Well, met: Met) -> _Exempt:
+        """Whether the liquid may come into the well, at this visit or at all later ones too."""
         well = visit.well
         if case.same_liquid(origin, well):
-            return True
+            return "ever"
         if self.via_destination:
-            is_of_others = _was_filled(case, visit, origin, met) != (self.via_destination == "only")
-            if is_of_others:
-                return True
+            filled = _was_filled(case, visit, origin, met)
+            if filled != (self.via_destination == "only"):
+                # What was filled stays so; what was not may be filled until the next visit.
+                return "ever" if filled or not _is_own(case, origin) else "now"
         if self.stock:
-            return self._is_in_stock(case, visit, origin, met)
-        return case.is_given(well, origin) or (self.pooled and _is_pooled(case, visit, origin))
+            is_in_place = self._is_in_stock(case, visit, origin, met)
+        elif case.is_given(well, origin):
+            return "ever"
+        else:
+            is_in_place = self.pooled and _is_pooled(case, visit, origin)
+        return "now" if is_in_place else ""
 
     def _is_in_stock(self, case: RuleContext, visit: Visit, origin: Well, met: Met) -> bool:
         """Whether the stock holds the liquid already, or is meant to."""
@@ -188,7 +198,7 @@ class Carry(Check):
         well = visit.well
         if case.is_claimed(origin, well) or origin in case.meant.get(well, {}):
             return False
-        return not self._is_exempt(case, visit, origin, met)
+        return not self._exemption(case, visit, origin, met)
 
     def _mixed_contact(self, case: RuleContext) -> Doubt | None:
         """The first return to a stock of a tip that mixed it, and nothing else as far as is known,
@@ -343,14 +353,15 @@ def _was_filled(case: RuleContext, visit: Visit, origin: Well, met: Met) -> bool
     if min(case.meant.get(met.well, {}).values(), default=math.inf) <= met.index:
         return True
     # A sample's tip has been in its destination too; with buffers it matters less.
-    return (
-        bool(case.of(origin))
-        and not case.is_one_liquid(origin)
-        and any(
-            case.meant.get(other, {}).get(origin, visit.index) < visit.index
-            for other in islice(visit.tip.touched, visit.met)
-        )
+    return _is_own(case, origin) and any(
+        case.meant.get(other, {}).get(origin, visit.index) < visit.index
+        for other in islice(visit.tip.touched, visit.met)
     )
+
+
+def _is_own(case: RuleContext, origin: Well) -> bool:
+    """Whether a well is known to hold what other wells of its role do not."""
+    return bool(case.of(origin)) and not case.is_one_liquid(origin)
 
 
 def _is_pooled(case: RuleContext, visit: Visit, origin: Well) -> bool:
