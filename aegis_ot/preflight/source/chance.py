@@ -68,11 +68,14 @@ class _Chances:
         self._nodes = nodes
         self._imported = dict(_imports(nodes))
         self._names: dict[str, str] = {}
+        # Made once, since the walk takes longest: the rounds go through it again and again.
+        self._bindings = [pair for pair in self._bound() if pair[0]]
 
     def found(self) -> dict[str, int]:
         for _ in range(_MOST_ROUNDS):
             before = len(self._names)
-            self._follow()
+            for targets, value in self._bindings:
+                self._name(targets, value)
             if len(self._names) == before:
                 break
         lines: dict[str, int] = {}
@@ -80,40 +83,40 @@ class _Chances:
             lines[source] = min(line, lines.get(source, line))
         return lines
 
-    def _follow(self) -> None:
-        """Names that hold what comes from a source, one step further."""
+    def _bound(self) -> Iterator[tuple[Sequence[ast.expr], ast.expr]]:
+        """What is given a value, with the expression that this comes from."""
         of = self._nodes.of
         for assigned in of(ast.Assign):
-            self._name(assigned.targets, assigned.value)
+            yield assigned.targets, assigned.value
         changes: list[ast.AugAssign | ast.NamedExpr] = [*of(ast.AugAssign), *of(ast.NamedExpr)]
         for changed in changes:
-            self._name([changed.target], changed.value)
+            yield [changed.target], changed.value
         loops: list[ast.For | ast.comprehension] = [*of(ast.For), *of(ast.comprehension)]
         for loop in loops:
-            self._name([loop.target], loop.iter)
+            yield [loop.target], loop.iter
         for item in (one for block in of(ast.With) for one in block.items if one.optional_vars):
-            self._name([*filter(None, [item.optional_vars])], item.context_expr)
+            yield [*filter(None, [item.optional_vars])], item.context_expr
         for call in of(ast.Call):
             # What is shuffled, or read into, holds it from then on.
             source = self._source_of(call)
             if source == _MODULES["random"] or _method(call) == "shuffle":
-                self._name(call.args[:1], call)
+                yield call.args[:1], call
             for given in (*call.args, *(word.value for word in call.keywords)):
-                self._name(_changed(call), given)
+                yield _changed(call), given
         for branch in self._branches():
             # What is set or turned round under a condition holds what decides it.
             for part in (one for step in (*branch.body, *branch.orelse) for one in ast.walk(step)):
                 if isinstance(part, ast.Assign) and not _loads(part.value):
                     held = [one for one in part.targets if not isinstance(one, ast.Attribute)]
-                    self._name(held, branch.test)
+                    yield held, branch.test
                 elif isinstance(part, ast.Call):
-                    self._name(_changed(part), branch.test)
+                    yield _changed(part), branch.test
 
     def _branches(self) -> list[ast.If | ast.While]:
         return [*self._nodes.of(ast.If), *self._nodes.of(ast.While)]
 
     def _name(self, targets: Sequence[ast.expr], value: ast.expr) -> None:
-        source = self._in(value) if targets else ""
+        source = self._in(value)
         for part in (part for target in targets for part in ast.walk(target)):
             if source and isinstance(part, ast.Name):
                 self._names.setdefault(part.id, source)

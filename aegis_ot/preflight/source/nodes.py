@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import functools
 from collections import defaultdict
 from collections.abc import Iterator
 from typing import TypeVar
@@ -14,9 +15,6 @@ _Placed = tuple[ast.AST, str, tuple[str, ...]]
 
 _SILENT_FIELDS = frozenset({"ctx", "op", "ops", "kind", "type_comment", "returns", "annotation"})
 """What holds operators and types: nearly half of all nodes, and nothing is read from them."""
-
-_FIELDS: dict[type[ast.AST], tuple[str, ...]] = {ast.Name: (), ast.Constant: ()}
-"""What may hold further nodes, by kind; most nodes are of these two, and nothing is below them."""
 
 
 class Nodes:
@@ -33,13 +31,15 @@ class Nodes:
             placed = open_.pop()
             node, function, looping = placed
             self._placed[type(node)].append(placed)
+            if not (fields := _telling_fields(type(node))):  # type: ignore[arg-type]
+                continue
             if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef)):
                 function = node.name
             elif isinstance(node, ast.Lambda):
                 function = "<lambda>"
             elif isinstance(node, LOOPS):
                 looping = (*looping, function)
-            open_ += [(child, function, looping) for child in reversed(_children(node))]
+            open_ += [(child, function, looping) for child in reversed(_children(node, fields))]
 
     def of(self, *kinds: type[_Node]) -> Iterator[_Node]:
         """The nodes of these kinds, one kind after the other."""
@@ -52,20 +52,15 @@ class Nodes:
             yield from self._placed.get(kind, ())  # type: ignore[misc]
 
 
-def _children(node: ast.AST) -> list[ast.AST]:
-    children: list[ast.AST] = []
-    for name in _telling_fields(type(node)):
-        value = getattr(node, name, None)
-        if isinstance(value, ast.AST):
-            children.append(value)
-        elif isinstance(value, list):
-            children += [part for part in value if isinstance(part, ast.AST)]
-    return children
+def _children(node: ast.AST, fields: tuple[str, ...]) -> list[ast.AST]:
+    values = (getattr(node, name, None) for name in fields)
+    listed = (value if isinstance(value, list) else (value,) for value in values)
+    return [part for parts in listed for part in parts if isinstance(part, ast.AST)]
 
 
+@functools.cache
 def _telling_fields(kind: type[ast.AST]) -> tuple[str, ...]:
-    found = _FIELDS.get(kind)
-    if found is None:
-        found = tuple(name for name in kind._fields if name not in _SILENT_FIELDS)
-        _FIELDS[kind] = found
-    return found
+    """What may hold further nodes; most nodes are of two kinds, and nothing is below them."""
+    if kind in (ast.Name, ast.Constant):
+        return ()
+    return tuple(name for name in kind._fields if name not in _SILENT_FIELDS)
