@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
+from itertools import takewhile
 
 from ...adapters.opentrons.instrumentation import NameBinding
 from ...vocabulary import WellRef
@@ -21,14 +22,15 @@ def named_wells(
 ) -> Iterator[Evidence]:
     """What variables, keys and attributes were called that held wells or whole labware."""
     keyed, listed = levels_of_keys(names), _lists_of_levels(names, common)
-    held = [set(one.wells) for one in names]
+    held = sorted({frozenset(one.wells) for one in names}, key=len, reverse=True)
     bound = Counter((one.function, one.name) for one in names if one.wells)
     for binding in names:
         if not (binding.wells or binding.labware):
             continue
         place = (binding.function, base_of(binding))
         mine = set(binding.wells)
-        if place in facts.varying and any(mine < other for other in held):
+        longer = takewhile(lambda other: len(other) > len(mine), held)  # noqa: B023
+        if place in facts.varying and any(mine < other for other in longer):
             continue  # the list that it runs over says as much of all its wells
         line = line_of(binding, facts)
         wells = deck.meant(binding.wells) or deck.used_wells(binding.labware)

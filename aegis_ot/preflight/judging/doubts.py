@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Collection, Iterable, Mapping, Sequence
+from itertools import islice
 
 from ...vocabulary import Undecided, WellRef
 from ..checks import Doubt, RuleContext
@@ -81,12 +82,12 @@ def _offered(role: str, case: RuleContext) -> list[str]:
     used = (well.ref for well in case.trace.wells.values() if well.visits)
     fitting = [ref for ref in dict.fromkeys(used) if side in ("any", case.trace.sides(ref)[0])]
     unknown = [r for r in fitting if not roles.is_known(r) and r not in case.waste]
-    return spelled(unknown)[:_MOST_SHOWN]
+    return spelled(unknown, _MOST_SHOWN)
 
 
-def spelled(wells: Iterable[WellRef]) -> list[str]:
-    """Wells as a guard's ``roles`` take them, one text for each labware: ``"2:A1-H1,A3"``."""
+def spelled(wells: Iterable[WellRef], most: int | None = None) -> list[str]:
+    """Wells as a guard's ``roles`` take them, ``"2:A1-H1,A3"``, a text for each labware."""
     by_labware: dict[str, dict[WellRef, None]] = {}
     for ref in wells:
         by_labware.setdefault(ref.labware, {})[ref] = None
-    return [places(list(refs)) for refs in by_labware.values()]
+    return [places(list(refs)) for refs in islice(by_labware.values(), most)]

@@ -129,6 +129,7 @@ def _assumed(info: WellInfo) -> tuple[Mapping[str, Any], ...]:
     return ({**ball, "topHeight": rounded}, {**tube, "bottomHeight": rounded})
 
 
+@functools.lru_cache(maxsize=4096)
 def row_column(name: str) -> tuple[int, int]:
     """``"B12"`` -> ``(1, 11)``; names that are not of this form count as the first well."""
     letters = name.rstrip("0123456789")

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping, Sequence, Set
+from collections.abc import Callable, Mapping, Sequence, Set
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cache, cached_property
 
 from ...adapters.opentrons.instrumentation import Event, LabwareInfo, Operation, OperationKind
 from ...vocabulary import WellRef
@@ -157,12 +157,16 @@ class Trace:
                 used.first_drawn = False  # emptied, filled again, and harvested in the end
         return usages
 
-    def sides(self, ref: WellRef) -> tuple[str, bool]:
+    @cached_property
+    def sides(self) -> Callable[[WellRef], tuple[str, bool]]:
         """On which side of the run's transfers a well stands: ``source``, ``destination`` or
-        ``""``, and whether it passes liquid on as well.
+        ``""``, and whether it passes liquid on as well; asked once all is read, for each family.
 
         A well that the run never uses stands where the others of its labware stand.
         """
+        return cache(self._sides_of)
+
+    def _sides_of(self, ref: WellRef) -> tuple[str, bool]:
         used = self.usage.get(ref) or Usage()
         side = used.side
         if not side:
