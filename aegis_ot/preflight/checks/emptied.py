@@ -121,12 +121,12 @@ class NothingFromNothing(Check):
 
 def _is_bare(case: RuleContext, visit: Visit) -> bool:
     """Whether nothing but this draw says that a well holds anything."""
-    well = visit.well
+    well, drawn_for = visit.well, case.destinations.get(visit.well, ())
     return (
         well.assumed
         and visit is well.visits[0]
         and not (well.liquids or well.ref in case.unsure or case.left_out(well))
-        and (visit.mixing or not _stays(case, well))
+        and (visit.mixing or all(one.ref.labware != well.ref.labware for one in drawn_for))
     )
 
 
@@ -152,7 +152,3 @@ def _filled_elsewhere(
 def _was_filled(visit: Visit) -> bool:
     """Whether the run itself had put something into a well before it drew from it."""
     return not visit.well.assumed and not visit.well.prefilled and visit.well.fed
-
-
-def _stays(case: RuleContext, well: Well) -> bool:
-    return any(other.ref.labware == well.ref.labware for other in case.destinations.get(well, ()))

@@ -178,6 +178,7 @@ def _report(reading: Interpretation, outcomes: Mapping[str, _Outcome], refuses: 
     sure = [told for told, always in misplaced if always or "add_parameters" not in recording.text]
     if refuses and sure:
         raise ConfigurationError(" ".join(sure))
+    by_chance = chances(recording.text, reading.facts.nodes)
     return Report(
         file=recording.file,
         family=reading.families[0].family if reading.families else "",
@@ -192,7 +193,7 @@ def _report(reading: Interpretation, outcomes: Mapping[str, _Outcome], refuses: 
             *(Remark(told) for told, _ in misplaced),
             *_conflicts(reading.roles),
             *waiver_remarks(waivers, waived, judged, known),
-            *_chances(reading),
+            *(Remark(_CHANCE.format(source), line) for source, line in by_chance.items()),
         ),
         judged=tuple(judged),
         unnamed=unnamed_wells(reading),
@@ -209,12 +210,6 @@ def _conflicts(all_roles: Sequence[Roles]) -> Iterable[Remark]:
         labels = " and ".join(dict.fromkeys(ref.label for ref in found if ref.label))
         where = places(list(found)) + (f" of {labels}" if labels else "")
         yield Remark(f"What {where} is for is said in two ways: {conflict}.")
-
-
-def _chances(reading: Interpretation) -> Iterable[Remark]:
-    """What lets another run move otherwise than this one did."""
-    for source, line in chances(reading.recording.text, reading.facts.nodes).items():
-        yield Remark(_CHANCE.format(source), line)
 
 
 def _evidence(all_roles: Sequence[Roles]) -> Iterable[RoleEvidence]:

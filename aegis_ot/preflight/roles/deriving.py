@@ -66,7 +66,7 @@ def _derive_one_to_one(roles: Roles, name: str, trace: Trace) -> None:
 
     A liquid that stands in several wells (a strip of master mix) serves several wells each.
     """
-    served = trace.stocks
+    served = {ref: into for ref, into in trace.served.items() if trace.usage[ref].prefilled}
     for key, info in trace.labware.items():
         refs = [ref for ref in served if ref.labware == key]
         if info.centers_channels or len(info.wells) < _SMALLEST_PLATE or len(refs) < _FEWEST_PAIRS:

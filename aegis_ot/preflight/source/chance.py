@@ -12,7 +12,6 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from .nodes import Nodes
 
-SIMULATING = "is_simulating"
 _MODULES: Mapping[str, str] = {
     "random": "chance (random)",
     "secrets": "chance (random)",
@@ -36,7 +35,7 @@ _CALLS: Mapping[str, str] = {
     "isfile": "a file",
     "exists": "a file",
     "input": "what somebody types",
-    SIMULATING: "whether it is a simulation (is_simulating)",
+    "is_simulating": "whether it is a simulation (is_simulating)",
 }
 _MENTIONED = re.compile(r"\b(?:" + "|".join(map(re.escape, (*_MODULES, *_CALLS))) + r")\b")
 _IDLE = frozenset({"sleep", "strftime", "isoformat"})

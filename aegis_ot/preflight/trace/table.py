@@ -141,22 +141,17 @@ def _append(rows: list[_Row], visits: list[Visit]) -> None:
 def _told(same: Sequence[_Session], wells: Told) -> str:
     """Sessions that a loop repeats in one line."""
     if len(same) > 1:
-        rows = [_row(alike, wells) for alike in zip(*(s.rows for s in same), strict=True)]
+        rows = [_rows([alike], wells) for alike in zip(*(s.rows for s in same), strict=True)]
     else:
         rows = []
         for count, block in _repeated(same[0].rows):
-            inner = "; ".join(_row(alike, wells) for alike in block)
+            inner = "; ".join(_rows([alike], wells) for alike in block)
             rows.append(inner if count == 1 else f"{count}x ({inner})")
     return f"{_tips(same)}: {'; '.join(rows)}"
 
 
-def _row(same: Sequence[_Row], wells: Told) -> str:
-    """Rows of one word, told together."""
-    return _rows([same], wells)
-
-
 def _rows(parts: Sequence[Sequence[_Row]], wells: Told) -> str:
-    """The same, with a border between the wells of one part and of the next: of each session."""
+    """Rows of one word, told together, with a border between the wells of two sessions."""
     rows = [row for part in parts for row in part]
     line = f"L{rows[0].line} " if rows[0].line is not None else ""
     most = max(row.volume for row in rows)

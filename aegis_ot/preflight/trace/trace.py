@@ -196,11 +196,6 @@ class Trace:
             found.setdefault(one.source.ref, {})[one.well.ref] = None
         return {source: into.keys() for source, into in found.items()}
 
-    @cached_property
-    def stocks(self) -> Mapping[WellRef, Set[WellRef]]:
-        """Likewise of those wells alone that held liquid before the run."""
-        return {ref: into for ref, into in self.served.items() if self.usage[ref].prefilled}
-
     def mixed_since(self, well: Well, index: int, before: float) -> bool:
         """Whether ``well`` was mixed or shaken after ``index`` and before ``before``."""
         if any(index < last and first < before for first, last in well.mixes):

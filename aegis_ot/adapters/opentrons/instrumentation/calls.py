@@ -39,6 +39,7 @@ CORE_METHODS: Mapping[str, OperationKind] = {
 
 _PROBES = frozenset(name for name in CORE_METHODS if "liquid_p" in name)
 _EMPTYING = frozenset({OperationKind.PICK_UP_TIP, OperationKind.DROP_TIP, OperationKind.BLOW_OUT})
+_DISPOSALS = frozenset({"TrashBin", "WasteChute"})
 _RECENT = 4
 
 
@@ -110,7 +111,7 @@ class CallReader:
             well_core = _well_core_of(location) or _well_core_below(location)
         nozzles = self._nozzles = Nozzles.of(self._core, self._nozzles)
         wells: tuple[WellRef | None, ...] = (None,) * len(nozzles.names)
-        disposal = name == "drop_tip_in_disposal_location" or _is_disposal(location)
+        disposal = name == "drop_tip_in_disposal_location" or type(location).__name__ in _DISPOSALS
         from_top = from_bottom = None
         if well_core is not None:
             info = self._wells.info_of(well_core)
@@ -249,10 +250,6 @@ def _over_liquid(values: Mapping[str, Any]) -> float | None:
         if getattr(values.get(tracking), "value", None) == "end":
             return float(values[place].point.z)
     return None
-
-
-def _is_disposal(location: Any) -> bool:
-    return type(location).__name__ in {"TrashBin", "WasteChute"}
 
 
 def _position(location: Any) -> tuple[float, float, float] | None:

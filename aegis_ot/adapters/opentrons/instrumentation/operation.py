@@ -61,9 +61,6 @@ class _NoCore:
         return None
 
 
-_NO_CORE = _NoCore()
-
-
 @dataclass(frozen=True)
 class Operation:
     """One operation of one pipette.
@@ -113,7 +110,7 @@ class Operation:
     written: float | None = None
     lead: int = 0
     probes: bool = False
-    core: Callable[[], Any] = field(default=_NO_CORE, repr=False, compare=False)
+    core: Callable[[], Any] = field(default=_NoCore(), repr=False, compare=False)
     """Gives the instrument core, as a weak reference does: ``None`` once the run is over."""
     method: str = field(default="", repr=False, compare=False)
     """Name of the core's method that was called."""
@@ -124,7 +121,7 @@ class Operation:
         """The same without its core, to be kept after the run or sent to another process."""
         # Not by ``dataclasses.replace``: that is a third of what it takes to record an operation.
         copied = object.__new__(Operation)
-        copied.__dict__.update(self.__dict__, core=_NO_CORE, arguments={})
+        copied.__dict__.update(self.__dict__, core=Operation.core, arguments={})
         return copied
 
     @property

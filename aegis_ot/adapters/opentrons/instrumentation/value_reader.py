@@ -201,7 +201,8 @@ class ValueReader:
         A map from well to well tells of transfers and not of roles, unless its columns do.
         """
         named = entries(value) or self.fields(value)
-        if named and (all(self._is_place(key) for key, _ in named) or self._are_rows(value)):
+        by_well = all(is_spot(key) or issubclass(type(key), self.well_type) for key, _ in named)
+        if named and (by_well or self._are_rows(value)):
             found = [(*self._cells(key), *self._cells(item)) for key, item in named]
         elif named:
             found = [self._cells(value)]
@@ -232,9 +233,6 @@ class ValueReader:
         """Whether a dict holds rows by name or number: ``{"s1": {"well": ..., "conc": ...}}``."""
         listed = [item for _, item in entries(value)]
         return len(listed) > 1 and all(entries(item) or self.fields(item) for item in listed)
-
-    def _is_place(self, value: Any) -> bool:
-        return is_spot(value) or issubclass(type(value), self.well_type)
 
     def _cells(self, value: Any, column: str = "") -> tuple[tuple[str, Cell], ...]:
         """What stands in one row; an object in it (``source.name``) is opened, one level deep."""
