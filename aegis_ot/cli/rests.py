@@ -19,7 +19,7 @@ from .runs import DataFolder, known_run, open_data
 
 if TYPE_CHECKING:
     from ..adapters.opentrons.rehearsal import Recording
-    from ..run_view.remaining import Rest, RestDelivery
+    from ..run_view.rest import Rest, RestDelivery
 
 app = typer.Typer()
 

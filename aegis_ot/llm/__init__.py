@@ -4,23 +4,22 @@ Door: :func:`make_backend` for a model by name, :func:`judge_in` for Layer 1 wit
 :class:`Opinions` for the sidecar. The gate of Layer 2 is in :mod:`.vlm`, which alone needs OpenCV.
 """
 
+from ..vocabulary.opinions import MODEL_FORMS
 from .backend import Backend, Message, Passage, PromptPicture, Reply, Request, State, TokenUsage
-from .backends import (
-    MODEL_FORMS,
+from .backends.anthropic_api import AnthropicBackend
+from .backends.exporting import ExportBackend
+from .backends.naming import (
     MODEL_VARIABLE,
-    AnthropicBackend,
-    ExportBackend,
-    OpenAIBackend,
-    RecordingBackend,
-    ReplayBackend,
-    RequestOptions,
-    RetryPolicy,
-    ScriptedBackend,
     make_backend,
     model_from_environment,
     project_model,
     record_from_environment,
 )
+from .backends.openai_api import OpenAIBackend
+from .backends.recording import RecordingBackend, ReplayBackend
+from .backends.retrying import RetryPolicy
+from .backends.scripted import ScriptedBackend
+from .backends.service import RequestOptions
 from .configurations import AskingConfiguration, Judgement, judge_in, request_in
 from .opinions import Opinions
 from .prices import Price, PriceTable, load_prices

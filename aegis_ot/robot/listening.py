@@ -6,6 +6,7 @@ from collections import deque
 from dataclasses import dataclass
 
 from ..adapters.opentrons.instrumentation import Operation
+from ..adapters.opentrons.run_state import PAUSED
 from ..runtime import Tracker
 from ..runtime.steps import Abandon, Capture, Step
 from ..vocabulary import Keyframe, KeyframeKind
@@ -13,7 +14,7 @@ from .clocks import WatchedClock
 from .deck import Deck
 from .keyframe_times import moment_before, moment_of_transit
 from .operations import OperationReader
-from .server_answers import PAUSED, Command
+from .server_answers import Command
 
 _UNKNOWN = 0.0
 """The moment of a keyframe whose time makes no sense: so long ago that it goes as late."""

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from typing import Any, Protocol
 
+from ..adapters.opentrons.run_state import PAUSED
 from ..errors import LinkError, RobotError
 from ..run_view.overview import is_not_as_rehearsed
 from .client import RobotClient
@@ -24,7 +25,7 @@ from .following import (
 from .held_liquid import HeldLiquid
 from .preparing import Inputs
 from .recovery import RECOVERING, Recovery
-from .server_answers import OWN_WORDS, PAUSED, Analysis, Command, RunSnapshot
+from .server_answers import OWN_WORDS, Analysis, Command, RunSnapshot
 from .verdicts import VerdictReader, WellVerdict, unjudged
 
 VERDICTS_EVERY_S = 0.5

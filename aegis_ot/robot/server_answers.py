@@ -12,16 +12,6 @@ from .places import Place, places_of
 
 ENDED = frozenset({"succeeded", "failed", "stopped"})
 """Run statuses after which nothing moves."""
-PAUSED = frozenset(
-    {
-        "paused",
-        "blocked-by-open-door",
-        "awaiting-recovery",
-        "awaiting-recovery-paused",
-        "awaiting-recovery-blocked-by-open-door",
-    }
-)
-"""Run statuses in which a person is waited for."""
 DONE = frozenset({"succeeded", "failed"})
 """Command statuses after which the command is over."""
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from .._version import __version__
+from ..adapters.opentrons.run_state import PAUSED
 from ..errors import LinkError, RobotError, RobotRefused, RobotUnreachable
 from ..run_view import RECOVERY
 from ..runtime.keyframe_sender import KeyframeSender
@@ -31,7 +32,7 @@ from .running import (
     Screen,
     tell_open,
 )
-from .server_answers import ENDED, PAUSED, RunSnapshot
+from .server_answers import ENDED, RunSnapshot
 from .verdicts import VerdictReader, WellVerdict, unjudged
 
 LOSSES = (

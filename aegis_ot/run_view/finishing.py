@@ -11,7 +11,7 @@ from ..adapters.opentrons.instrumentation import Event, EventKind, Operation, Op
 from ..adapters.opentrons.rehearsal import Recording
 from ..vocabulary import WellRef, counted
 from .plain_protocol import NotPlain, TipSession, plain_tree, plan_of, tip_sessions
-from .remaining import HeldWell, Rest
+from .rest import HeldWell, Rest
 
 _LEVEL_OF_LIQUIDS = (2, 14)
 

@@ -19,7 +19,7 @@ from ..workbench.shelf import with_own_values
 from ..workbench.side_by_side import LazyRehearser
 from ..workbench.surroundings import Placed, root_of, surroundings_of
 from ..workbench.tasks import RecordTask
-from .remaining import RehearsedDelivery
+from .rest import RehearsedDelivery
 
 _TIMEOUT_S = 120.0
 _MEANS_MORE = {

@@ -21,7 +21,6 @@ class TipPatch:
     Attributes:
         across, along: mm right of the axis and above the orifice at each pixel, ``(h, w)``.
         mm_per_px: Size of a pixel in the tip's plane, mm.
-        sees_down: Sine of the angle at which the camera looks down on the tip.
         hidden_below: Height above the orifice below which labware hides the tip, mm.
         under: Colour of the labware under the tip, grey levels (B, G, R).
         beads: Random numbers for beads, fixed per tip and what it holds.
@@ -31,7 +30,6 @@ class TipPatch:
     across: Plane
     along: Plane
     mm_per_px: float
-    sees_down: float
     hidden_below: float
     under: tuple[float, float, float]
     beads: np.random.Generator

@@ -147,7 +147,6 @@ def _draw(
             across=(across / w).reshape(xs.shape).astype(np.float32),
             along=(along / w).reshape(xs.shape).astype(np.float32),
             mm_per_px=mm_per_px,
-            sees_down=float(-camera.forward[2]),
             hidden_below=hidden_below,
             under=_under(state, parameters),
             beads=_scatter(parameters, channel, f"{state.contents[channel]!r}{state.tip_name}"),

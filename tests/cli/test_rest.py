@@ -17,7 +17,8 @@ from aegis_ot.adapters.opentrons.rehearsal import Recording, Script, record
 from aegis_ot.errors import CameraError
 from aegis_ot.run_view.finishing import finishing_protocol
 from aegis_ot.run_view.plain_protocol import NotPlain, plan_of
-from aegis_ot.run_view.remaining import RehearsedDelivery, Rest, rest_of
+from aegis_ot.run_view.remaining import rest_of
+from aegis_ot.run_view.rest import RehearsedDelivery, Rest
 from aegis_ot.runtime.planner import Planner
 from aegis_ot.settings import Settings
 from aegis_ot.sidecar import SidecarConfig, running_sidecar

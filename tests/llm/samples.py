@@ -9,7 +9,7 @@ from typing import Any
 from aegis_ot.adapters.opentrons.rehearsal import Script
 from aegis_ot.llm import Message, Passage, PromptPicture, Request
 from aegis_ot.llm.answer import strict_object
-from aegis_ot.llm.backends import Clock
+from aegis_ot.llm.backends.retrying import Clock
 from aegis_ot.preflight import Options, Report, RuleSet, load_rules
 from aegis_ot.preflight.judging import Interpretation
 from aegis_ot.preflight.opinion import check_with_dossier

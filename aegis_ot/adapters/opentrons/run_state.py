@@ -11,7 +11,7 @@ import sys
 from typing import Any
 
 _ENDING = frozenset({"stop-requested", "finishing", "stopped", "failed", "succeeded"})
-_PAUSED = frozenset(
+PAUSED = frozenset(
     {
         "paused",
         "blocked-by-open-door",
@@ -20,6 +20,7 @@ _PAUSED = frozenset(
         "awaiting-recovery-blocked-by-open-door",
     }
 )
+"""Statuses of a run in which a person is waited for."""
 
 
 class RunState:
@@ -43,7 +44,7 @@ class RunState:
     @property
     def paused(self) -> bool:
         """Whether the operator, the protocol or the door has paused the run."""
-        return self._status() in _PAUSED or self._execution() == "PAUSED"
+        return self._status() in PAUSED or self._execution() == "PAUSED"
 
     def _status(self) -> str:
         if self._client is None:
