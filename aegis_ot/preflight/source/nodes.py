@@ -13,8 +13,10 @@ LOOPS: tuple[type[ast.For | ast.comprehension], ...] = (ast.For, ast.comprehensi
 _Node = TypeVar("_Node", bound=ast.AST)
 _Placed = tuple[ast.AST, str, tuple[str, ...]]
 
-_SILENT_FIELDS = frozenset({"ctx", "op", "ops", "kind", "type_comment", "returns", "annotation"})
-"""What holds operators and types: nearly half of all nodes, and nothing is read from them."""
+_SILENT_FIELDS = frozenset(
+    {"arg", "attr", "ctx", "op", "ops", "kind", "type_comment", "returns", "annotation"}
+)
+"""What holds names, operators, types: nearly half of all nodes, and nothing is read from them."""
 
 
 class Nodes:
@@ -39,7 +41,12 @@ class Nodes:
                 function = "<lambda>"
             elif isinstance(node, LOOPS):
                 looping = (*looping, function)
-            open_ += [(child, function, looping) for child in reversed(_children(node, fields))]
+            below: list[object] = []
+            for name in fields:
+                value = getattr(node, name, None)
+                below += value if isinstance(value, list) else (value,)
+            nodes = (part for part in reversed(below) if isinstance(part, ast.AST))
+            open_ += [(part, function, looping) for part in nodes]
 
     def of(self, *kinds: type[_Node]) -> Iterator[_Node]:
         """The nodes of these kinds, one kind after the other."""
@@ -50,12 +57,6 @@ class Nodes:
         """Likewise, each with its function, and with those in which loops enclose it."""
         for kind in kinds:
             yield from self._placed.get(kind, ())  # type: ignore[misc]
-
-
-def _children(node: ast.AST, fields: tuple[str, ...]) -> list[ast.AST]:
-    values = (getattr(node, name, None) for name in fields)
-    listed = (value if isinstance(value, list) else (value,) for value in values)
-    return [part for parts in listed for part in parts if isinstance(part, ast.AST)]
 
 
 @functools.cache
