@@ -5,12 +5,11 @@ from __future__ import annotations
 import functools
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, NamedTuple
 
 
-@dataclass(frozen=True)
-class WellInfo:
-    """Geometry of one well.
+class WellInfo(NamedTuple):
+    """Geometry of one well; each labware has many, and a named tuple is made quickly.
 
     Attributes:
         max_volume: Capacity, µL.
