@@ -23,7 +23,7 @@ from .evidence import (
     edge_evidence,
     step_evidence,
 )
-from .profile import TipProfile, tip_profile, unroll
+from .profile import INSIDE, TipProfile, tip_profile, unroll
 from .strip import SHAPES, Array, Strip, TipShape, resample
 
 _SHORTEST = (0.08, 9.0)
@@ -123,8 +123,9 @@ class TipLook:
 
     @property
     def washed_out(self) -> bool:
-        """Whether the frame is overexposed, so that no colour or edge of the tip is left."""
-        return float((self.cone.max(axis=2) >= 250).mean()) > 0.4
+        """Whether the frame is overexposed, so that no colour or edge of the tip is left: what is
+        beside the tip may be as white as it likes, and so may one of a dye's colours."""
+        return float((self.cone[:, INSIDE].min(axis=2) >= 250).mean()) > 0.4
 
 
 def look_at_tip(

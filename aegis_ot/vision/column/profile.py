@@ -34,7 +34,9 @@ LANES = np.linspace(-2.6, 2.6, 53).astype(np.float32)
 """Positions across the axis at which rows are read, in outer radii of that row."""
 
 _SECTION = np.linspace(-1.05, 1.05, 8)
-_INSIDE = np.abs(LANES) < 0.7
+INSIDE = np.abs(LANES) < 0.7
+"""The lanes within the bore."""
+
 _WIDE = np.abs(LANES) < 1.3
 _BESIDE = np.abs(LANES) > 1.65
 _DARK = 4.0
@@ -104,10 +106,10 @@ def tip_profile(strip: Strip, shape: TipShape, cone: Array | None = None) -> Tip
     cone = unroll(strip, shape) if cone is None else cone
     u = strip.u
     nozzle = (u > 0.1 * shape.nozzle_end) & (u < 0.85 * shape.nozzle_end)
-    white = np.median(cone[nozzle][:, _INSIDE], axis=(0, 1))
+    white = np.median(cone[nozzle][:, INSIDE], axis=(0, 1))
     white = np.maximum(white, 4.0)
     luminance = np.log(np.maximum((cone / white).mean(axis=2), 0.02))
-    brightness = np.median(luminance[:, _INSIDE], axis=1)
+    brightness = np.median(luminance[:, INSIDE], axis=1)
     background = np.median(luminance[:, _BESIDE], axis=1)
     return TipProfile(
         u=u,
@@ -195,7 +197,7 @@ def _bar(luminance: Array, background: Array, u: Array) -> Array:
         around = cv2.filter2D(rows, cv2.CV_32F, surround[:, None], borderType=cv2.BORDER_REPLICATE)
         return np.asarray(smooth - around, dtype=np.float32)
 
-    lanes = np.sort(peak(luminance[:, _INSIDE].astype(np.float32)), axis=1)
+    lanes = np.sort(peak(luminance[:, INSIDE].astype(np.float32)), axis=1)
     n = lanes.shape[1]
     cut = int(0.3 * n)
     bar = lanes[:, cut // 2 : n - cut].mean(axis=1)

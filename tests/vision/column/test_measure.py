@@ -72,3 +72,14 @@ def test_exposure_does_not_move_the_reading() -> None:
     dim = read(draw_tip(top=0.6, light=0.8))
     bright = read(draw_tip(top=0.6, light=1.2))
     assert abs(dim.top - bright.top) < 0.01
+
+
+def test_a_tip_before_a_white_panel_is_not_washed_out() -> None:
+    """What is beside a tip may be saturated: its column shows all the same."""
+    frame = draw_tip(top=FULL)
+    panel = np.where((np.abs(frame.astype(int) - 55) < 12).all(axis=2)[..., None], 255, frame)
+    assert not look_at_tip(panel.astype(np.uint8), detection(), TIP).washed_out
+
+
+def test_an_overexposed_tip_is_washed_out() -> None:
+    assert look_at_tip(draw_tip(top=FULL, light=5.0), detection(), TIP).washed_out
