@@ -181,7 +181,7 @@ def _texts(
             yield "liquid", one.text
         elif one.kind in (Kind.NAME, Kind.PASSING_NAME):
             yield "name", one.text
-    for name in facts.names:
+    for name in sorted(facts.names):  # reasons are told in this order
         yield "name", name
     for _, text in facts.docstrings:
         yield "text", text
