@@ -128,7 +128,7 @@ class StreamCamera:
         self._plugged.set()
         camera = self
 
-        class CalibrationGroup(BaseHTTPRequestHandler):
+        class Stream(BaseHTTPRequestHandler):
             def do_GET(self) -> None:
                 if not camera._plugged.is_set():
                     self.close_connection = True
@@ -147,7 +147,7 @@ class StreamCamera:
             def log_message(self, *_: object) -> None:
                 """Quiet."""
 
-        self._server = _serving(CalibrationGroup)
+        self._server = _serving(Stream)
         self.spec = f"http://127.0.0.1:{self._server.server_port}/"
 
     def show(self, keyframe: Keyframe) -> None:
