@@ -113,10 +113,10 @@ def _timed(path: Path, text: str) -> tuple[float, float]:
     """Processor time of a simulation and, of it, of the verdict, s."""
     from opentrons.simulate import simulate
 
-    from aegis_ot import guarded_run
+    from aegis_ot import judged_run
 
     verdicts = [0.0]
-    judge = guarded_run._judge
+    judge = judged_run._judge
 
     def timed_judge(*args: object) -> object:
         begun = time.process_time()
@@ -126,7 +126,7 @@ def _timed(path: Path, text: str) -> tuple[float, float]:
             verdicts.append(time.process_time() - begun)
 
     gc.collect()
-    with mock.patch.object(guarded_run, "_judge", timed_judge):
+    with mock.patch.object(judged_run, "_judge", timed_judge):
         begun = time.process_time()
         simulate(StringIO(text), path.name)
         return time.process_time() - begun, sum(verdicts)
