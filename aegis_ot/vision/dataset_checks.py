@@ -29,6 +29,8 @@ COLUMNS = (
     "volume_ul",
     *FRAME_COLUMNS,
 )
+READY = "ready"
+"""A fifth frame: the trajectory's tip while it was still empty. It is checked and not used."""
 BOX_COLUMNS = ("frame", "x", "y", "w", "h")
 AXIS_COLUMNS = ("frame", "collar_x", "collar_y", "orifice_x", "orifice_y")
 POSITION_COLUMNS = ("trajectory_id", "keyframe", "x", "y", "z")
@@ -60,6 +62,7 @@ class Record:
     retained_fraction: float | None
     volume_ul: float
     frames: Mapping[KeyframeKind, str]
+    ready: str = ""
 
 
 def in_data_sets(pipette: str) -> str:
@@ -70,7 +73,7 @@ def in_data_sets(pipette: str) -> str:
 
 def read_manifest(root: Path, problems: Problems) -> list[Record]:
     """Rows of ``manifest.csv`` that could be read; faults go to ``problems``."""
-    rows = read_table(root / "manifest.csv", COLUMNS, problems)
+    rows = read_table(root / "manifest.csv", COLUMNS, problems, (READY,))
     records: list[Record] = []
     first_rows: dict[str, dict[str, int]] = {"trajectory_id": {}, "frame": {}, "plate": {}}
     for line, row in rows:
@@ -83,7 +86,7 @@ def read_manifest(root: Path, problems: Problems) -> list[Record]:
         if name and first != line:
             note("trajectory_id", f"{name!r} stands in row {first} already")
         volume, retained = _check_values(row, note)
-        for column in FRAME_COLUMNS:
+        for column in (*FRAME_COLUMNS, *([READY] if row[READY] else [])):
             _check_frame(root, row[column], column, note)
             first = first_rows["frame"].setdefault(row[column], line)
             if row[column] and first != line:
@@ -101,6 +104,7 @@ def read_manifest(root: Path, problems: Problems) -> list[Record]:
                 retained,
                 volume,
                 {KeyframeKind(column): row[column] for column in FRAME_COLUMNS},
+                row[READY],
             )
         )
     normal_plates = {row["plate"] for _, row in rows if row["label"] == "normal"}
@@ -165,8 +169,9 @@ def read_boxes(
         x, y, w, h = (0.0 if number is None else number for number in numbers)
         boxes[frame] = (x, y, w, h)
     named = {frame for record in records for frame in record.frames.values()}
+    known = named | {record.ready for record in records}
     warnings = []
-    if extra := [frame for frame in boxes if frame not in named]:
+    if extra := [frame for frame in boxes if frame not in known]:
         warnings.append(f"boxes.csv: {len(extra)} rows name frames that no trajectory uses")
     if lacking := [frame for frame in named if frame not in boxes]:
         warnings.append(f"boxes.csv: {len(lacking)} frames have no row")
@@ -189,6 +194,8 @@ def read_positions(
         name, kind = row["trajectory_id"], row["keyframe"]
         if name not in known:
             strangers += 1  # of a trajectory that was taken out of the set, or mistyped
+            continue
+        if kind == READY:
             continue
         if kind not in FRAME_COLUMNS:
             note("keyframe", f"{kind!r} must be one of {', '.join(FRAME_COLUMNS)}")

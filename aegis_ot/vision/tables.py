@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import math
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from pathlib import Path
 
 from ..vocabulary import from_csv_cell
@@ -50,9 +50,12 @@ class Note:
 
 
 def read_table(
-    path: Path, columns: Sequence[str], problems: Problems
+    path: Path, columns: Sequence[str], problems: Problems, optional: Collection[str] = ()
 ) -> list[tuple[int, dict[str, str]]]:
-    """Rows as (line of the file, cells by column), cells stripped."""
+    """Rows as (line of the file, cells by column), cells stripped.
+
+    Columns of ``optional`` may stand anywhere; where one does not, its cells are empty.
+    """
     try:
         text = path.read_bytes().decode("utf-8-sig")
     except FileNotFoundError:
@@ -69,20 +72,25 @@ def read_table(
             cells = [from_csv_cell(cell.strip()) for cell in cells]
             if header is None:
                 header = cells
-                if not _check_header(path.name, header, columns, problems):
+                needed = list(header)
+                for column in optional:
+                    if column in needed:
+                        needed.remove(column)
+                if not _check_header(path.name, needed, columns, problems):
                     return []
                 continue
             if not any(cells):
                 continue
-            if len(cells) != len(columns):
+            if len(cells) != len(header):
                 problems.add(
                     path.name,
                     reader.line_num,
                     None,
-                    f"has {len(cells)} cells, the header has {len(columns)}",
+                    f"has {len(cells)} cells, the header has {len(header)}",
                 )
                 continue
-            rows.append((reader.line_num, dict(zip(columns, cells, strict=True))))
+            row = dict.fromkeys(optional, "") | dict(zip(header, cells, strict=True))
+            rows.append((reader.line_num, row))
     except csv.Error as error:
         problems.add(path.name, reader.line_num, None, f"is not readable as CSV ({error})")
     if header is None:

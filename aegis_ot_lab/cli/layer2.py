@@ -46,9 +46,10 @@ def layer2(
         str,
         typer.Option(
             help="detector (the shipped one), registered (it, and positions.csv), "
-            "true (boxes.csv), or an .onnx file."
+            "true (boxes.csv), or an .onnx file. Default: as in a live run, registered where the "
+            "set has positions.csv, else detector."
         ),
-    ] = "detector",
+    ] = "",
     threshold: Annotated[
         str,
         typer.Option(
@@ -106,6 +107,7 @@ def layer2(
     data = open_dataset(dataset)
     results, seconds = [], []
     with StageBar() as shown:
+        boxes = boxes or ("registered" if data.positions else "detector")
         tips = find_tips(data, tip_finder(boxes), shown)
         for name in dict.fromkeys(names):
             begun = time.monotonic()

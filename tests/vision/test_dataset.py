@@ -197,3 +197,24 @@ def test_positions_of_unknown_trajectories_are_counted(folder: Path) -> None:
     (folder / "positions.csv").write_text("\n".join(rows) + "\n")
     (told,) = (each for each in load_dataset(folder).warnings if "positions.csv" in each)
     assert "2 rows name trajectories" in told
+
+
+@pytest.mark.parametrize("place", [9, 13])
+def test_a_frame_of_the_empty_tip_may_stand_anywhere(folder: Path, place: int) -> None:
+    before = load_dataset(folder)
+    manifest, frame = folder / "manifest.csv", folder / "frames" / "a_ready.jpg"
+    frame.write_bytes((folder / before.records[0].frames[KeyframeKind.TRANSIT]).read_bytes())
+    rows = [line.split(",") for line in manifest.read_text().splitlines()]
+    for row, cell in zip(rows, ["ready", "frames/a_ready.jpg", *[""] * len(rows)], strict=False):
+        row.insert(place, cell)
+    manifest.write_text("\n".join(",".join(row) for row in rows) + "\n")
+    with (folder / "boxes.csv").open("a") as boxes:
+        boxes.write("frames/a_ready.jpg,1,2,3,4\n")
+    found = load_dataset(folder)
+    assert [replace(one, ready="") for one in found.records] == list(before.records)
+    assert found.records[0].ready == "frames/a_ready.jpg"
+    assert found.warnings == before.warnings
+
+    frame.unlink()
+    with pytest.raises(DatasetError, match=r"column ready: .*a_ready.jpg. does not exist"):
+        load_dataset(folder)

@@ -25,7 +25,7 @@ def test_evaluate_writes_the_five_figures_at_the_top(aegis: Command, drawn: Path
     result = aegis("evaluate", "layer2", drawn, "--scorer", "pca", "--json", "o.json")
     assert result.code == 0
     assert "synthetic frames" in result.out
-    assert "Finding tips" in result.err, "progress goes to stderr"
+    assert "Registering cameras" in result.err, "the set has positions; progress goes to stderr"
     told = json.loads(Path("o.json").read_text(encoding="utf-8"))
     for name in ("average_precision", "auroc", "f1", "precision", "recall"):
         assert set(told[name]) == {"value", "low", "high"}
