@@ -111,9 +111,10 @@ class Carry(Check):
         claimed = case.is_claimed(origin, well)
         if claimed is True:
             return False
-        near = min(met.contact(visit.index), visit.contact) is Contact.NEAR
+        contact = min(met.contact(visit.index), visit.contact)
         place = (visit.tip, well, origin)
-        if near and place in so_far.found:
+        known = so_far.found.get(place)
+        if known and contact <= known.contact < Contact.WET:
             return True  # nothing new
         if exempt := self._exemption(case, visit, origin, met):
             if case.are_twins(origin, well):
@@ -131,7 +132,7 @@ class Carry(Check):
         trace = self.via_destination == "only" and case.is_one_liquid(origin)
         if not (case.beside and (trace or violation.warning == _IN_ALL)):
             surest(so_far.found, place, violation)
-        return near
+        return contact < Contact.WET
 
     def _exemption(self, case: RuleContext, visit: Visit, origin: Well, met: Met) -> _Exempt:
         """Whether the liquid may come into the well, at this visit or at all later ones too."""

@@ -47,7 +47,7 @@ class DoseOrder(Check):
             here = doses.get(visit.well, {})
             key = (visit.tip.number, id(visit.well))
             seen = found.get(key)
-            if seen and not (isinstance(seen, Violation) and seen.contact is Contact.NEAR):
+            if seen and not (isinstance(seen, Violation) and seen.contact < Contact.WET):
                 continue
             for origin, met in carried_liquids(visit):
                 dosed = origin is not visit.well and case.has(origin, self.liquid)

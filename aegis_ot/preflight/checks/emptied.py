@@ -35,8 +35,10 @@ class StockSuffices(Check):
             warning = _NO_TROUGH if _is_no_trough(case, well) else ""
             if len(case.destinations.get(well, ())) == 1 and well.received:
                 warning = _SWEPT  # no stock: what the run made there goes on as a whole
-            if case.trace.labware[well.ref.labware].load_name in taller:
-                warning = _TALLER
+            load_name = case.trace.labware[well.ref.labware].load_name
+            cause: tuple[object, ...] = (visit.line, well.ref.labware)
+            if load_name in taller:
+                warning, cause = _TALLER, ("taller", load_name)
             told = (
                 f"{microlitres(needed)} are drawn from {well.ref} in all, the first "
                 f"{at(first.line)}; filled to the brim it holds {microlitres(well.brim)}, and it "
@@ -45,7 +47,7 @@ class StockSuffices(Check):
             site = Site(
                 visit.line, well.ref, f"{microlitres(needed)} are drawn in all", visit.index
             )
-            yield Violation(told, (site,), (visit.line, well.ref.labware), warning=warning)
+            yield Violation(told, (site,), cause, warning=warning)
 
 
 def _taller(case: RuleContext) -> set[str]:

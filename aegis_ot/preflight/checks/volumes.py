@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from ...adapters.opentrons.instrumentation import OperationKind
 from ...vocabulary import Site
-from ..trace import Imbalance, Visit, Well
+from ..trace import TO_EMPTY, Imbalance, Visit, Well
 from .check import Check, Doubt, Result, Violation, microlitres
 from .rule_context import RuleContext, at
 
@@ -22,9 +22,6 @@ _DECLARED = "It rests on the declared volume (load_liquid): that, or the draw, i
 
 STOCK_SUFFICES = "HND-6"
 """The rule that tells of wells which cannot hold what is drawn from them at all."""
-
-_TO_EMPTY = 1.25
-"""So many times what a well holds is drawn from it to leave nothing behind."""
 
 
 @dataclass(frozen=True)
@@ -142,7 +139,7 @@ def _why_practice(case: RuleContext, imbalance: Imbalance) -> str:
     last = all(v.index <= visit.index for v in well.visits if v.kind is OperationKind.ASPIRATE)
     if (
         last
-        and 0 < imbalance.volume <= imbalance.limit * _TO_EMPTY
+        and 0 < imbalance.volume <= imbalance.limit * TO_EMPTY
         and len(case.destinations.get(well, ())) <= 1
     ):
         return "It is drawn to empty the well."

@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 import gc
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence, Set
 from contextlib import contextmanager
 from dataclasses import replace
 
@@ -96,11 +96,15 @@ class Interpretation:
         usage = trace.usage
         prefilled -= {ref for ref, used in usage.items() if used.first_drawn or used.prefilled}
         if prefilled & usage.keys():
-            self.trace = build_trace(log, labware, common.pauses, prefilled.__contains__, through)
+            holds = prefilled.__contains__
+            supposed = self._supposed(prefilled)
+            self.trace = build_trace(log, labware, common.pauses, holds, through, supposed)
         for one in self.roles:
             derive(one, self.trace)
         self.deck = DeckNames(self.trace, recording.names)
-        self.waste = self._over_channels(self._called(common.waste))
+        waste, groups = self._called(common.waste), self.trace.groups.items()
+        # Where the first channel goes to the waste, the others do.
+        self.waste = waste.union(*(group for first, group in groups if first in waste))
         self.unsure = self._called(common.prefilled) | self._implied_elsewhere()
 
     @property
@@ -212,10 +216,15 @@ class Interpretation:
         lexicon = lexicon_of({"called": words})
         return frozenset(ref for e in self.evidence if lexicon.find(e.text) for ref in e.wells)
 
-    def _over_channels(self, wells: frozenset[WellRef]) -> frozenset[WellRef]:
-        """These wells, and those that the other channels reach where the first one goes there."""
-        groups = self.trace.groups.items()
-        return wells.union(*(group for first, group in groups if first in wells))
+    def _supposed(self, prefilled: Set[WellRef]) -> Set[WellRef]:
+        """Those of these wells that no more than a variable's name says held liquid before the run.
+
+        Not those from which the run draws more than it gave them.
+        """
+        drawn = {one.visit.well.ref for one in self.trace.imbalances if not one.overfilled}
+        said = [one for roles in self.roles for one in roles.by_well.items()]
+        told = {ref for ref, one in said if not all(name.variable for name in one.evidence)}
+        return prefilled - told - drawn
 
     def _implied_elsewhere(self) -> frozenset[WellRef]:
         """Wells that held liquid before the run in the eyes of a family that is not judged.

@@ -96,7 +96,8 @@ def _doubt_about(violation: Violation, case: RuleContext) -> Doubt | None:
     if not case.confident and not _plain(violation, case.roles):
         return UNKNOWN_ASSAY
     near = case.left_over and violation.contact is Contact.NEAR
-    if near and not all(well.liquids for well in violation.rests_on):
+    near = near and not all(well.liquids for well in violation.rests_on)
+    if near or violation.contact is Contact.UNSURE:
         told = violation.message
         return Doubt(_NOT_SURELY.format(told[0].lower() + told[1:].rstrip(".")))
     return None

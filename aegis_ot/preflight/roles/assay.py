@@ -122,17 +122,14 @@ def _inferred(
         applies = applies and fit.score == best
         applies = applies and not any(other.family.beside and other.is_known for other in fits)
         applies = applies and not any(other.outdoes_default(best) for other in fits)
-        sure = sure if best else _is_sure_left_over(fit)
+        if not best:  # sure where no more than one word speaks against it
+            against = sum(one.worth < 0 for one in fit.found)
+            sure = against <= 1 or _score(fit.found) >= SURE
     told = applies and sure and not fit.family.default and in_prose(fit.words)
     confidence = round(fit.share(fits), 2)
     return Inference(
         fit.family.family, fit.score, confidence, fit.reasons, applies, sure, in_prose=told
     )
-
-
-def _is_sure_left_over(fit: _Fit) -> bool:
-    """Where no more than one word speaks against it."""
-    return sum(one.worth < 0 for one in fit.found) <= 1 or _score(fit.found) >= SURE
 
 
 def _left_over(inference: Inference, fit: _Fit) -> Inference:

@@ -3,7 +3,7 @@
 Door: :func:`build_trace` gives a :class:`Trace`.
 """
 
-from .building import FALLS_MM, build_trace, touched_by_tip
+from .building import FALLS_MM, TO_EMPTY, build_trace, touched_by_tip
 from .geometry import Contact, row_column
 from .loads import Given, Load, loads_of
 from .model import EMPTY_UL, Met, Tip, Transfer, Visit, Well
@@ -13,6 +13,7 @@ from .trace import Beside, Imbalance, Trace, Usage, chains_of
 __all__ = [
     "EMPTY_UL",
     "FALLS_MM",
+    "TO_EMPTY",
     "Beside",
     "Contact",
     "Given",

@@ -29,8 +29,8 @@ from .trace import Beside, Imbalance, Trace
 _MOST = 0.5
 """A mix gives back at least this share of what it drew."""
 
-_TO_EMPTY = 1.25
-"""So many times what a well can hold is drawn from it to leave nothing behind."""
+TO_EMPTY = 1.25
+"""So many times what a well holds is drawn from it to leave nothing behind."""
 
 _MOVING = (OperationKind.ASPIRATE, OperationKind.DISPENSE, OperationKind.BLOW_OUT)
 
@@ -48,6 +48,7 @@ def build_trace(
     words: Words,
     prefilled: Callable[[WellRef], bool] = lambda ref: False,
     through: Collection[str] = (),
+    supposed: Collection[WellRef] = (),
 ) -> Trace:
     """Read a recorded run.
 
@@ -57,6 +58,7 @@ def build_trace(
         words: Of pauses: was a plate replaced, shaken, refilled?
         prefilled: Whether a well's role implies that it held liquid before the run.
         through: Keys of filters and columns. One that the run draws from holds something.
+        supposed: Wells whose role implies it, and is no more than a variable's name.
     """
     drawn = {
         ref.labware
@@ -65,7 +67,7 @@ def build_trace(
         for ref in (step.wells if through else ())
         if ref is not None
     }
-    return _Builder(labware, words, prefilled, set(through) - drawn).run(log)
+    return _Builder(labware, words, prefilled, set(through) - drawn, supposed).run(log)
 
 
 class _Builder:
@@ -75,6 +77,7 @@ class _Builder:
         words: Words,
         prefilled: Callable[[WellRef], bool],
         through: Collection[str],
+        supposed: Collection[WellRef],
     ) -> None:
         self._box = TipBox()
         self._trace = Trace(labware, tips=self._box.tips)
@@ -84,7 +87,7 @@ class _Builder:
             if info.is_tip_rack and "half" in topics_in(info.label, words)
         }
         self._words = words
-        self._plates = Plates(labware, prefilled, self._trace.wells, through)
+        self._plates = Plates(labware, prefilled, self._trace.wells, through, supposed)
         self._slots = {key: info.slot for key, info in labware.items()}
         self._index = 0
         self._last: dict[Tip, Visit] = {}
@@ -312,7 +315,7 @@ class _Builder:
         if step.from_bottom is not None:
             self._heights[tip] = (well, step.from_bottom)
         liquid, held, least = well.liquid(), well.volume, well.least
-        if well.full * _TO_EMPTY < step.volume and not step.mixing:
+        if well.full * TO_EMPTY < step.volume and not step.mixing:
             self._trace.overdrawn.setdefault(well, visit)
         missing = well.draw(step.volume)
         # Of a sample of unknown volume that the run adds to, it is not known where its end is.

@@ -36,8 +36,10 @@ class Contact(IntEnum):
     """How surely a tip met a well's liquid (``spec/rules.md``, Contact)."""
 
     CLEAR = 0
-    NEAR = 1
-    WET = 2
+    UNSURE = 1
+    """High over the bottom of a well of which no more than a name says that it holds liquid."""
+    NEAR = 2
+    WET = 3
 
 
 class Geometry:

@@ -54,6 +54,7 @@ class Well:
         fallen: µL let go so high over it that they may land elsewhere.
         full: What it holds at most by its shape, µL: a brimful of liquid less what was taken.
         assumed: Whether nothing but a draw says that it held liquid before the run.
+        supposed: Whether nothing but a variable's name says so.
     """
 
     ref: WellRef
@@ -76,6 +77,7 @@ class Well:
     runs_through: bool = False
     full: float = field(init=False)
     assumed: bool = False
+    supposed: bool = False
     order: tuple[int, int] = field(init=False)
     last: Composition = field(init=False)
 
@@ -189,23 +191,24 @@ class Well:
             return Contact.WET
         below = geometry.volume_below(from_bottom - CLEARANCE_MM)
         most = self.volume if self.known else self.most
-        clear = self.volume <= below and (most <= below or geometry.is_high(from_bottom))
-        return Contact.CLEAR if clear else Contact.NEAR
+        if self.volume <= below and (most <= below or geometry.is_high(from_bottom)):
+            return Contact.CLEAR
+        return Contact.UNSURE if self.supposed and self.least < below else Contact.NEAR
 
 
 @dataclass(eq=False, slots=True)
 class Met:
-    """First contact of a tip with one liquid or one well; ``wet``: index of the first wet one."""
+    """First contact of a tip with one liquid or one well; ``firsts``: its index by degree."""
 
     well: Well
     line: int | None
     caller: int | None
     index: int
-    wet: float
+    firsts: dict[Contact, int]
 
     def contact(self, index: float = math.inf) -> Contact:
         """How surely the tip had met it by this index."""
-        return Contact.WET if self.wet <= index else Contact.NEAR
+        return max(degree for degree, first in self.firsts.items() if first <= index)
 
 
 @dataclass(eq=False, slots=True)
@@ -233,14 +236,12 @@ class Tip:
     def touch(self, visit: Visit, contact: Contact = Contact.WET) -> None:
         """The tip's outside met the well: it now carries all that the well holds."""
         well, index = visit.well, visit.index
-        wet = index if contact is Contact.WET else math.inf
         for known, keys in ((self.touched, (well,)), (self.origins, well.contents)):
             for key in keys:
-                met = known.get(key)
-                if met is None:
-                    known[key] = Met(well, visit.line, visit.caller, index, wet)
-                elif wet < met.wet:
-                    met.wet = wet
+                if met := known.get(key):
+                    met.firsts.setdefault(contact, index)
+                else:
+                    known[key] = Met(well, visit.line, visit.caller, index, {contact: index})
 
     def pop(self, volume: float = math.inf) -> list[Layer]:
         """Give off ``volume`` µL, air included; the air is not listed."""

@@ -23,6 +23,7 @@ class Plates:
         prefilled: Whether a well's role implies that it held liquid before the run.
         known: Every well of the run, by place; new ones are added.
         runs_through: Labware that holds nothing, by key.
+        supposed: Wells whose role is no more than a variable's name.
     """
 
     def __init__(
@@ -31,8 +32,10 @@ class Plates:
         prefilled: Callable[[WellRef], bool],
         known: dict[PlaceKey, Well],
         runs_through: Collection[str] = (),
+        supposed: Collection[WellRef] = (),
     ) -> None:
         self._runs_through = runs_through
+        self._supposed = supposed
         self._labware = labware
         self._prefilled = prefilled
         self._known = known
@@ -54,6 +57,7 @@ class Plates:
             well.runs_through = ref.labware in self._runs_through
             if self._prefilled(ref) and not well.runs_through:
                 well.fill_before_run(None)
+                well.supposed = ref in self._supposed
         return well
 
     def replace(self, key: str) -> None:

@@ -388,6 +388,14 @@ def test_a_vessel_that_is_taller_than_its_definition_holds_more(height: int, sev
     assert told(ot2(code), "HND-6").startswith(severity)
 
 
+def test_one_definition_that_does_not_fit_is_told_once() -> None:
+    code = """
+        for tube in ("A1", "A2", "A3"):
+            pip.transfer(200, small[tube], small["P24"].top(40))
+    """
+    assert len(found(ot2(code), "HND-6")) == 1
+
+
 @pytest.mark.parametrize(("targets", "severity"), [(1, "warning"), (2, "error")])
 def test_what_is_moved_on_as_a_whole_may_be_swept_up(targets: int, severity: str) -> None:
     code = f"""

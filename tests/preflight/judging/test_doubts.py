@@ -188,6 +188,56 @@ def test_a_tip_near_a_known_level_warns_where_liquids_are_declared() -> None:
     assert "line 17, or only came near the liquid: it is not sure how high that stands" in reason
 
 
+HIGH_OVER_THE_TUBES = """
+buffer_stock = trough["A1"]
+magnesium_stock = trough["A2"]
+{names}
+for stock in (buffer_stock, magnesium_stock):
+    p300.pick_up_tip()
+    for tube in rack.rows()[0][:3]:
+        p300.aspirate(40, stock)
+        p300.dispense(40, tube.bottom({height}))
+    p300.drop_tip()
+{then}
+"""
+BY_VARIABLE = "sample1, sample2, sample3 = rack.rows()[0][:3]"
+DRAWN = """
+for tube in rack.rows()[0][:3]:
+    p300.pick_up_tip()
+    p300.mix(3, 200, tube)
+    p300.drop_tip()
+"""
+
+
+@pytest.mark.parametrize(
+    ("names", "height", "then", "warned"),
+    [
+        (BY_VARIABLE, 20, "", False),
+        (BY_VARIABLE, 20, DRAWN, True),
+        (BY_VARIABLE, 1, "", True),
+    ],
+    ids=["nothing shows liquid", "more is mixed than was given", "at the bottom"],
+)
+def test_what_is_no_more_than_called_a_sample_may_be_empty_under_a_tip_that_stands_high(
+    names: str, height: int, then: str, warned: bool
+) -> None:
+    body = HIGH_OVER_THE_TUBES.format(names=names, height=height, then=then)
+    report = checked(body, assay=["generic"])
+    told = {one.rule for one in report.findings}
+    assert ({"GEN-1", "GEN-2"} <= told) is warned
+    if not warned:
+        assert not told
+        reasons = {one.rule: one.reason for one in report.undecided}
+        assert "sure how high that stands" in reasons["GEN-1"]
+
+
+def test_a_tip_high_over_the_samples_warns_where_the_guard_is_told_of_them() -> None:
+    body = HIGH_OVER_THE_TUBES.format(names=BY_VARIABLE, height=20, then="")
+    report = checked(body, assay=["generic"], roles={"sample_well": ["2:A1-A3"]})
+    assert {"GEN-1", "GEN-2"} <= {one.rule for one in report.findings}
+    assert report.verdict is VerdictWord.WARN
+
+
 SERIES = """
 row = plate.rows()[0][:5]
 {filler} = trough["A2"]
