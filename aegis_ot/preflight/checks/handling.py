@@ -65,7 +65,6 @@ class TipsOverWells(Check):
             found.setdefault(place, []).append(one)
         for cause, together in found.items():
             worst = sorted(together, key=lambda one: (_is_harmless(one, case), -len(one.nozzles)))
-            told = dict.fromkeys(_target(one.step) for one in worst)
             if worst[0].perhaps_bare:
                 yield Doubt(
                     f"not all tips of the {called(worst[0].step)} stand over a well "
@@ -78,7 +77,7 @@ class TipsOverWells(Check):
             elif _may_be_left_out(case, together):
                 warning = _LEFT_OUT
             message = _beside(worst[0], case.trace.labware[_target(worst[0].step).labware])
-            for target in told:
+            for target in dict.fromkeys(_target(one.step) for one in worst):
                 site = Site(worst[0].step.line, target, "not all tips stand over a well")
                 yield Violation(message, (site,), cause, warning=warning)
 
@@ -147,8 +146,7 @@ def _beside(one: Beside, info: LabwareInfo) -> str:
         f"{at(step.line)}, where it {_DOES[step.kind]} {target.name}."
     )
     lead = step.nozzles[step.lead]
-    better = _where_all_fit(step, info, target.name)
-    if better:
+    if better := _where_all_fit(step, info, target.name):
         return f"{told} The named well is the one under nozzle {lead}: write {better} there."
     return f"{told} No well of it has room for all of them: use fewer nozzles, or a single channel."
 

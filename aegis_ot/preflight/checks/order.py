@@ -165,6 +165,7 @@ class RisingOrder(Check):
             last[key] = one
             if before is None or before.source is source:
                 continue
+            was = before.visit
             level, level_before = case.roles.level(source.ref), case.roles.level(before.source.ref)
             if level_before is None or level is None or not comparable(level_before, level):
                 yield Doubt(
@@ -176,20 +177,15 @@ class RisingOrder(Check):
                 done.add((*key, source))
                 yield Violation(
                     f"The tip that dispensed {case.title(before.source)} from "
-                    f"{before.source.ref} {at(before.visit.line)} goes on with the less "
+                    f"{before.source.ref} {at(was.line)} goes on with the less "
                     f"concentrated one from {source.ref} into {one.well.ref} "
                     f"{at(visit.line)}.",
                     (
-                        Site(
-                            before.visit.line,
-                            before.source.ref,
-                            "dispensed the higher one",
-                            before.visit.index,
-                        ),
+                        Site(was.line, before.source.ref, "dispensed the higher one", was.index),
                         Site(one.drawn, source.ref, "drew the lower one"),
                         Site(
                             visit.line, one.well.ref, "dispensed the lower one after", visit.index
                         ),
                     ),
-                    (before.visit.line, visit.line),
+                    (was.line, visit.line),
                 )

@@ -59,11 +59,8 @@ class UniformVolume(Check):
         )
 
     def _assay(self, case: RuleContext, well: Well) -> tuple[str, ...]:
-        names = set()
-        for tube in came_from(case, well, self.liquid):
-            assigned = case.roles.by_well.get(tube.ref)
-            kind = assigned.text if assigned else ""
-            names.add(kind or tube.ref.address)
+        tubes, named = came_from(case, well, self.liquid), case.roles.by_well
+        names = {(t.ref in named and named[t.ref].text) or t.ref.address for t in tubes}
         return (well.ref.labware, str(well.generation), *sorted(names))
 
     def _compare(self, case: RuleContext, members: list[Member]) -> Iterator[Result]:
@@ -110,5 +107,4 @@ def _usual(values: list[float]) -> float:
     counts: dict[str, list[float]] = {}
     for value in values:
         counts.setdefault(f"{value:.3g}", []).append(value)
-    best = max(counts.values(), key=lambda same: (len(same), same[0]))
-    return best[0]
+    return max(counts.values(), key=lambda same: (len(same), same[0]))[0]

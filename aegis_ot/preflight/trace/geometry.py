@@ -37,7 +37,7 @@ class Contact(IntEnum):
 
     CLEAR = 0
     UNSURE = 1
-    """High over the bottom of a well of which no more than a name says that it holds liquid."""
+    """High over the bottom of a well that no more than a variable's name says to hold liquid."""
     NEAR = 2
     WET = 3
 

@@ -38,7 +38,6 @@ class Load:
         pipette: Key of the pipette.
         drawn: Every draw of liquid.
         given: Every delivery, in order, the waste included.
-        rest: µL of liquid that the tips held when they were dropped.
         parked: Whether they were put back into a rack with it.
     """
 
@@ -46,7 +45,6 @@ class Load:
     session: int
     drawn: list[Visit] = field(default_factory=list)
     given: list[Given] = field(default_factory=list)
-    rest: float = 0.0
     parked: bool = False
 
     @property
@@ -66,7 +64,6 @@ def loads_of(trace: Trace) -> Iterator[Load]:
         load, layers = on.get(key) or (Load(key, 0), [])
         visit = visits.get(id(step))
         if kind is OperationKind.PICK_UP_TIP or kind is OperationKind.DROP_TIP:
-            load.rest = sum(one.volume for one in layers if one.source)
             load.parked = kind is OperationKind.DROP_TIP and any(step.wells) and not step.disposal
             yield load
             on[key] = (Load(key, load.session + 1), [])
