@@ -104,7 +104,7 @@ class RuleContext:
         found: dict[Well, dict[Well, int]] = {}
         for one in self.trace.transfers:
             into = found.setdefault(one.well, {})
-            for origin in one.liquid:
+            for origin in (*one.liquid, *one.source.residue):  # an eluate is of its sample
                 into.setdefault(origin, one.visit.index)
         return found
 

@@ -44,8 +44,12 @@ def assign_roles(
         if named:
             worth, control = _worth(one, words), words.has_word_of_control(one.text)
             fitting = functools.cache(partial(_fitting, named, family, one))
+            fits = {fitting(trace.sides(ref)) for ref in one.wells} if one.whole else set()
+            is_filled = any(role and family.roles[role].side == "destination" for role in fits)
         for ref, level in zip(one.wells, _levels(one, common), strict=True) if named else ():
             role = fitting(trace.sides(ref))
+            if role and is_filled and family.roles[role].one_liquid:
+                role = None  # `dil` on a plate that is filled in the run is no diluent
             if role and level and family.roles[role].level == 0:
                 if one.levels:  # `standards[0]` is no blank
                     role = next(iter(family.roles[role].parents), None)

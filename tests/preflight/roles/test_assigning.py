@@ -139,3 +139,19 @@ def test_a_column_named_well_by_well_leaves_out_what_is_not_named(named: str, sa
     roles = roles_by_well(reading)
     assert roles["1:A1"] == "reaction"
     assert ("1:H1" in roles) is sample
+
+
+def test_a_name_that_means_the_plate_of_a_series_is_no_diluent() -> None:
+    reading = read(
+        """
+        dil, water = plate, tubes["A1"]
+        p20.transfer(18, water, dil.rows()[0][1:4])
+        for source, well in zip(dil.rows()[0][:3], dil.rows()[0][1:4]):
+            p20.transfer(2, source, well, mix_after=(3, 10))
+        """,
+        assay="serial_dilution",
+    )
+    roles = roles_by_well(reading)
+    assert roles["2:A1"] == "diluent"
+    assert roles["1:A2"] == "series"
+    assert "1:A1" not in roles

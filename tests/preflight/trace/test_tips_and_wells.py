@@ -337,3 +337,23 @@ def test_a_multi_channel_pipette_that_picks_one_tip_has_one_tip() -> None:
     box.pick_up("left", ["A1", "B1"], [lead, None])
     assert box.on("left", "A1") is not None
     assert box.on("left", "B1") is None
+
+
+def test_what_was_drawn_off_to_the_last_is_met_again_once_the_well_is_filled_anew() -> None:
+    bench = Bench()
+    bench.load("plate:A1", 50)
+    for step in ("off", "wash"):
+        bench.pick()
+        if step == "off":
+            bench.draw("plate:A1", 50)
+            bench.give("source:H12", 50)
+        else:
+            bench.draw("source:A1", 80)
+            bench.give("plate:A1", 80)
+        bench.drop()
+    bench.pick()
+    bench.draw("plate:A1", 80)
+    bench.drop()
+    trace = bench.trace()
+    assert carried(trace, 1) == ["source:A1"], "nothing is met in a well that is empty"
+    assert carried(trace, 2) == ["source:A1", "plate:A1"]
