@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from itertools import islice
 from typing import Literal
 
-from ...adapters.opentrons.instrumentation import OperationKind
+from ...adapters.opentrons.instrumentation import Operation, OperationKind
 from ...vocabulary import Site
 from ..rules import role_names
 from ..source import comparable
@@ -67,7 +67,8 @@ class Carry(Check):
         return kept and case.has(origin, self.carried)
 
     def find(self, case: RuleContext) -> Iterator[Result]:
-        if not (case.trace.transfers or case.trace.mixes):
+        mixes = (isinstance(step, Operation) and step.mixing for step in case.trace.log)
+        if not (case.trace.transfers or any(mixes)):
             return  # all that was drawn goes back where it came from: a run that tries its moves
         carriers = set(case.wells(self.carried))
         if self.unnamed:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ...adapters.opentrons.instrumentation import OperationKind
-from ..trace import Met, Visit, Well
+from ..trace import Met, Tip, Visit, Well
 from .rule_context import RuleContext
 
 _RINSES = 2
@@ -45,6 +45,8 @@ def was_rinsed(case: RuleContext, visit: Visit, origin: Well) -> bool:
     """Whether, since the tip last met a liquid, a shared one was drawn into it and given to the
     waste often enough, or the tip was washed by mixing in one that serves nothing else.
     """
+    if visit.tip not in case.once(_washed):
+        return False  # asked of every pair of wells that a tip has been in
     rinses, thrown = 0, False
     for other in reversed(visit.tip.visits):
         if other.index >= visit.index:
@@ -58,6 +60,12 @@ def was_rinsed(case: RuleContext, visit: Visit, origin: Well) -> bool:
                 rinses += _RINSES if _is_bath(other.well) else thrown
             thrown = False
     return rinses >= _RINSES
+
+
+def _washed(case: RuleContext) -> set[Tip]:
+    """The tips that have been in the waste, or in a bath."""
+    visits, waste = case.trace.visits, case.waste
+    return {one.tip for one in visits if one.well.ref in waste or _is_bath(one.well)}
 
 
 def rinsed_with(case: RuleContext, visit: Visit, origin: Well) -> bool:

@@ -94,10 +94,6 @@ class _Fit(NamedTuple):
         total = sum(fit.score for fit in fits) or 1.0
         return self.score / total * min(1.0, self.score / (2 * SURE))
 
-    def is_second(self, best: float) -> bool:
-        """Whether it applies beside a better one."""
-        return self.score >= ALSO * best and _said_outright(self.found)
-
     def outdoes_default(self, best: float) -> bool:
         """Where wells are given what a family's own are, its words outweigh "source" and
         "transfer"; and nothing is told twice, as the one family's fault and as the other's.
@@ -117,7 +113,8 @@ def _inferred(
     rivals = [other for other in fits if other.is_known and not other.family.beside]
     best = max((other.score for other in rivals), default=0.0)
     sure = fit.is_known
-    applies = sure and (fit.family.beside or fit.score == best or fit.is_second(best))
+    second = fit.score >= ALSO * best and _said_outright(fit.found)
+    applies = sure and (fit.family.beside or fit.score == best or second)
     if fit.family.default:
         applies = applies and fit.score == best
         applies = applies and not any(other.family.beside and other.is_known for other in fits)

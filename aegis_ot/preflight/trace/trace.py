@@ -113,11 +113,6 @@ class Trace:
     in_pairs: dict[str, set[str]] = field(default_factory=dict)
 
     @cached_property
-    def mixes(self) -> bool:
-        """Whether the run calls for a mix anywhere."""
-        return any(isinstance(step, Operation) and step.mixing for step in self.log)
-
-    @cached_property
     def links(self) -> Sequence[Transfer]:
         """Transfers between two wells of one plate; of repeated ones the last."""
         links: dict[tuple[Well, Well], Transfer] = {}
