@@ -212,21 +212,15 @@ def _one_tip(
         if (
             strongest is not None
             and strongest[0] < place_here
-            and visit.well not in excepted
-            and visit.well not in reported
+            and visit.well not in excepted | reported
         ):
             reported.add(visit.well)
-            before = strongest[1]
+            before, did = strongest[1], "touched the more concentrated well"
             yield Violation(
                 f"The tip that touched the more concentrated {before.well.ref} "
                 f"{at(before.line)} entered {visit.well.ref} {at(visit.line)}.",
                 (
-                    Site(
-                        before.line,
-                        before.well.ref,
-                        "touched the more concentrated well",
-                        before.index,
-                    ),
+                    Site(before.line, before.well.ref, did, before.index),
                     Site(visit.line, visit.well.ref, "entered a later well", visit.index),
                 ),
                 ("series tip",),

@@ -124,17 +124,13 @@ class DoseOrder(Check):
             if first > met.index and not any(first <= at < visit.index for at in touched):
                 continue
             if any(volume > here[origin] * 1.01 for origin, volume in there.items()):
+                did = "entered a well of a lower dose"
                 yield Violation(
                     f"The tip that touched {other.ref}, a well of a higher dose, "
                     f"{case.at(met)} entered {visit.well.ref} {case.at(visit)}.",
                     (
                         Site(met.line, other.ref, "touched a well of a higher dose", met.index),
-                        Site(
-                            visit.line,
-                            visit.well.ref,
-                            "entered a well of a lower dose",
-                            visit.index,
-                        ),
+                        Site(visit.line, visit.well.ref, did, visit.index),
                     ),
                     (visit.line, met.line, "falling"),
                     (other, visit.well),
