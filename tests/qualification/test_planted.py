@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import pytest
@@ -9,12 +10,15 @@ import pytest
 from aegis_ot import guard
 from aegis_ot.adapters.opentrons.instrumentation import Operation, OperationKind, tapped
 from aegis_ot.adapters.opentrons.rehearsal import Recorder, Script, play, record
+from aegis_ot.dryrun import DryRunSettings, dry_run
 from aegis_ot.planted import KINDS
 from aegis_ot.preflight.check_protocol import check_recording, errors_of
 from aegis_ot.qualification.plan import QualificationPlan, QualifyingDelivery
 from aegis_ot.qualification.protocol import GUARD, protocol_text
 from aegis_ot.robot.wrapping import wrap
 from aegis_ot.settings import load_settings
+
+from ..sidecar.helpers import StubAnalyser
 
 KINDS_AND_SHARES = {
     "normal": 0.0, "left": 0.25, "nothing": 0.0, "air": 0.1, "more": 0.25, "no_tip": 0.0,
@@ -161,11 +165,55 @@ def test_the_guard_hears_of_plain_deliveries_while_the_robot_fails() -> None:
     assert sum(stroke == ("dispense", 100.0) for stroke in strokes(commands)) == 3
 
 
-def test_nothing_is_planted_in_a_dry_run_under_a_guard_of_its_own() -> None:
+AS_WRITTEN: dict[str, Callable[[str], str]] = {
+    "plain": lambda text: text, "wrapped": lambda text: wrap(text).text,
+}  # fmt: skip
+"""A wrapped protocol carries a copy of this package, unknown to the one that tries it."""
+
+
+@pytest.mark.parametrize("written", AS_WRITTEN)
+def test_nothing_is_planted_under_a_guard_from_outside(written: str) -> None:
     plan = plan_of("p300_single_gen2")
     others = GUARD | {"on_fail": "pause", "rules": "off"}
-    commands = commands_of(protocol_text(plan), lambda run: guard(run, **others))
+    text = AS_WRITTEN[written](protocol_text(plan))
+    commands = commands_of(text, lambda run: guard(run, **others))
     assert strokes(commands) == [("aspirate", 100.0), ("dispense", 100.0)] * len(plan.deliveries)
+
+
+@pytest.mark.parametrize("written", AS_WRITTEN)
+def test_nothing_is_planted_in_a_rehearsal(written: str) -> None:
+    plan = plan_of("p300_single_gen2")
+    kept: list[Any] = []
+    record(
+        Script(AS_WRITTEN[written](protocol_text(plan)), "qualification.py"),
+        look=lambda context: kept.extend(context._core._engine_client.state.commands.get_all()),
+    )
+    assert strokes(kept) == [("aspirate", 100.0), ("dispense", 100.0)] * len(plan.deliveries)
+
+
+@pytest.mark.parametrize("written", AS_WRITTEN)
+def test_nothing_is_planted_in_a_dry_run(written: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of the whole of ``aegis-ot simulate``, with a sidecar and a guard that watches."""
+    plan = plan_of("p300_single_gen2")
+    kept: list[Any] = []
+
+    def play_and_keep(script: Script, wrap_run: Any) -> None:
+        def kept_too(run: Any) -> Any:
+            guarded = wrap_run(run)
+
+            def watched(protocol: Any) -> None:
+                guarded(protocol)
+                kept.extend(protocol._core._engine_client.state.commands.get_all())
+
+            return watched
+
+        play(script, kept_too)
+
+    monkeypatch.setattr("aegis_ot.dryrun.runner.play", play_and_keep)
+    script = Script(AS_WRITTEN[written](protocol_text(plan)), "qualification.py")
+    done = dry_run(script, DryRunSettings(), StubAnalyser())
+    assert (done.outcome, len(done.wells)) == ("succeeded", len(plan.deliveries))
+    assert strokes(kept) == [("aspirate", 100.0), ("dispense", 100.0)] * len(plan.deliveries)
 
 
 HEARD: list[Operation] = []
