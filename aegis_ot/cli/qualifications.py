@@ -292,19 +292,21 @@ def _certificate_in(path: Path) -> dict[str, Any]:
 def _finish(
     plan: QualificationPlan, store: Store, run: str, out: Path, previous: dict[str, Any] | None
 ) -> None:
-    from ..qualification.certificate import certificate
-    from ..qualification.fitted import before_and_after
+    from ..qualification.certificate import certificate, certificate_html
+    from ..qualification.fitted import before_and_after, flagged_anew, judge_anew
     from ..qualification.frames import true_samples, write_frames
-    from ..qualification.page import certificate_html
+    from ..qualification.opening import open_plan
     from ..vision.detection import HeatmapDetector
     from .progress import StageBar
 
     detector = HeatmapDetector()
-    made = certificate(store, run, plan, detector, previous)
+    open_plan(store, run, plan)  # before minutes are spent on it
     with StageBar() as shown:
         samples, source = true_samples(store, run, plan, detector)
         write_frames(out / _FRAMES, samples, source)
-        made["fitted"] = before_and_after(samples, shown)
+        shipped = judge_anew(samples, shown)
+        made = certificate(store, run, plan, detector, previous, flagged_anew(shipped))
+        made["fitted"] = before_and_after(samples, shipped, shown)
     write_text(out / _CERTIFICATE, json.dumps(made, indent=1, ensure_ascii=False) + "\n")
     write_text(out / _PAGE, certificate_html(made))
     for line in _lines(made):

@@ -12,16 +12,19 @@ from .._version import __version__
 from ..errors import ConfigurationError, StoreError
 from ..inspection.aiming import check_camera
 from ..planted import AIR, LEFT, MORE, NO_TIP, NOTHING
+from ..reports.html_page import html_page
 from ..sidecar.store import Store
 from ..vision.types import Detector
 from ..vocabulary import Outcome
 from ..worldmodel.recorded import run_source
 from .camera_state import camera_state, changes
-from .counting import Rate, rate_of, smallest_leftover
+from .counting import rate_of, smallest_leftover
+from .fitted import spread_of
 from .opening import JudgedDelivery, open_plan
 from .plan import QualificationPlan
 
-FORMAT, VERSION = "aegis-ot qualification", 2
+FORMAT, VERSION = "aegis-ot qualification", 3
+_READ = (2, 3)  # can be compared with; intervals of version 2 were of the one run alone
 
 WORDS = {
     LEFT: "{} % of the volume left in the tip",
@@ -41,15 +44,15 @@ def certificate(
     plan: QualificationPlan,
     detector: Detector,
     previous: Mapping[str, Any] | None = None,
+    anew: Mapping[str, bool] | None = None,
 ) -> dict[str, Any]:
     """Open the plan of a run, and count.
 
     Args:
-        store: The sidecar's.
-        run: In it.
-        plan: Of the run.
+        store, run, plan: As for :func:`~.opening.open_plan`.
         detector: Finds tips, where the camera is to be registered.
         previous: The last certificate, to compare the camera with.
+        anew: See :func:`~.fitted.flagged_anew`; without, intervals are of this run alone.
 
     Raises:
         ConfigurationError: The run is none of this plan, or ``previous`` no certificate.
@@ -63,7 +66,7 @@ def certificate(
     source = run_source(overview)
     known = _registration(store, run, detector) if source == "real" else None
     liquids = [
-        count_liquid(name, [each for each in deliveries if each.planned.liquid == name], plan)
+        count_liquid(name, [e for e in deliveries if e.planned.liquid == name], plan, anew)
         for name in dict.fromkeys(each.planned.liquid for each in deliveries)
     ]
     ended = overview["finished"]
@@ -106,6 +109,12 @@ def certificate(
     }
 
 
+def certificate_html(made: Mapping[str, Any]) -> str:
+    """A certificate as one HTML page: no script, no link."""
+    shown = {"fitted": None, **made}
+    return html_page("aegis_ot.qualification", "certificate.html", {}, c=shown, words=WORDS)
+
+
 def check_certificate(told: Any) -> None:
     """Refuse what the camera cannot be compared with.
 
@@ -113,7 +122,7 @@ def check_certificate(told: Any) -> None:
         ConfigurationError: It is no certificate of this version.
     """
     try:
-        if (told["format"], told["version"]) == (FORMAT, VERSION) and not _COMPARED - told.keys():
+        if told["format"] == FORMAT and told["version"] in _READ and not _COMPARED - told.keys():
             changes(told["camera"], told["camera"])  # half an hour later would be too late
             return
     except (AttributeError, KeyError, TypeError, ValueError):
@@ -124,56 +133,59 @@ def check_certificate(told: Any) -> None:
 
 
 def count_liquid(
-    name: str, deliveries: Sequence[JudgedDelivery], plan: QualificationPlan
-) -> dict[str, Any]:
-    """What is counted of one liquid's deliveries."""
+    name: str, deliveries: Sequence[JudgedDelivery], plan: QualificationPlan,
+    anew: Mapping[str, bool] | None = None,
+) -> dict[str, Any]:  # fmt: skip
+    """What is counted of one liquid's deliveries; ``anew`` as for :func:`certificate`."""
+    # Whatever makes a run miss more need not make it flag more: each has a spread of its own.
+    of_faults, of_normals = (
+        spread_of([e for e in deliveries if e.is_normal is normal], anew or {})
+        for normal in (False, True)
+    )
+    spread = of_faults or 0.0
     counted = [each for each in deliveries if each.is_counted]
     # Of the first wells only what a gate failed tells of the camera: the others are not judged.
-    normals = rate_of(
-        each.is_flagged
-        for each in counted
-        if each.is_normal and (not each.calibrates or each.outcome == Outcome.FAIL.value)
-    )
+    fail = Outcome.FAIL.value
+    normal = [e for e in counted if e.is_normal and (not e.calibrates or e.outcome == fail)]
+    normals = rate_of((e.is_flagged for e in normal), of_normals or 0.0)
+
+    def caught(alike: Iterable[JudgedDelivery]) -> dict[str, float | int]:
+        return rate_of((each.is_flagged for each in alike), spread).to_json()
+
     faults = [each for each in counted if not each.is_normal]
     kinds = sorted({(each.planned.kind, each.planned.share) for each in faults})
-    rows = []
-    for kind, share in sorted(kinds, key=lambda each: (list(WORDS).index(each[0]), each[1])):
-        alike = [
-            each for each in faults if (each.planned.kind, each.planned.share) == (kind, share)
-        ]
-        rows.append(
-            {
-                "kind": kind,
-                "share": share,
-                "words": WORDS[kind].format(f"{100 * share:g}"),
-                "ul": round(share * plan.volume_ul, 2) if share else None,
-                "caught": rate_of(each.is_flagged for each in alike).to_json(),
-            }
-        )
+    rows = [
+        {
+            "kind": kind,
+            "share": share,
+            "words": WORDS[kind].format(f"{100 * share:g}"),
+            "ul": round(share * plan.volume_ul, 2) if share else None,
+            "caught": caught(
+                e for e in faults if (e.planned.kind, e.planned.share) == (kind, share)
+            ),
+        }
+        for kind, share in sorted(kinds, key=lambda each: (list(WORDS).index(each[0]), each[1]))
+    ]
     left = [each for each in faults if each.planned.kind == LEFT]
     smallest = smallest_leftover(
-        [each.planned.share for each in left], [each.is_flagged for each in left], normals
+        [each.planned.share for each in left], [each.is_flagged for each in left], normals, spread
     )
+    many = f"{normals.hits} of {normals.of} normal wells were flagged: where so many are, no "
     return {
         "name": name,
-        "caught": rate_of(each.is_flagged for each in faults).to_json(),
+        "spread": None if of_faults is None else round(of_faults, 4),
+        "normals_spread": None if of_normals is None else round(of_normals, 4),
+        "caught": caught(faults),
         "by_kind": {
-            kind: rate_of(e.is_flagged for e in faults if e.planned.kind == kind).to_json()
+            kind: caught(e for e in faults if e.planned.kind == kind)
             for kind in dict.fromkeys(row["kind"] for row in rows)
         },
         "rows": rows,
         "normals_flagged": normals.to_json(),
         "first_asked": rate_of(e.is_left_open for e in counted if e.calibrates).to_json(),
         "smallest_leftover": None if smallest is None else smallest.to_json(),
-        "no_smallest": _why_no_smallest(normals) if left and smallest is None else "",
+        "no_smallest": f"{many}smallest leftover can be told." if left and smallest is None else "",
     }
-
-
-def _why_no_smallest(normals: Rate) -> str:
-    return (
-        f"{normals.hits} of {normals.of} normal wells were flagged: where so many are, no smallest "
-        "leftover can be told."
-    )
 
 
 def _seconds(deliveries: Sequence[JudgedDelivery]) -> dict[str, float | None]:

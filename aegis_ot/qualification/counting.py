@@ -1,4 +1,10 @@
-"""What a few planted deliveries tell: rates with exact intervals, the smallest leftover."""
+"""What a few planted deliveries tell of further runs: rates with intervals, the smallest leftover.
+
+Wells of one run share its calibration. So an interval is that of Clopper and Pearson (1934) at an
+effective number of wells (Korn and Graubard 1998): their number over the design effect of Kish
+(1965), ``1 + (wells - 1) * spread``. The spread, an intraclass correlation, is estimated from two
+halves that are calibrated apart, by moments (Williams 1982).
+"""
 
 from __future__ import annotations
 
@@ -7,8 +13,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass
 
 import numpy as np
-from scipy.special import ndtr, ndtri
-from scipy.stats import beta
+from scipy.special import betaincinv, ndtr, ndtri
 
 CAUGHT = 0.9
 """Nine times in ten."""
@@ -24,19 +29,38 @@ _WIDTHS = np.geomspace(0.08, 1.2, 8)
 _LAPSES = np.array([0.0, 0.02, 0.05, 0.1, 0.2, 0.4])
 
 
+def spread_between(halves: Sequence[tuple[tuple[int, int], tuple[int, int]]]) -> float:
+    """Intraclass correlation of the halves of groups, each as caught of all, 0 to 1 (Williams):
+    Pearson's chi squared of a group has a mean of ``1 + (wells of a half - 1) * spread``."""
+    hits, sizes = np.moveaxis(np.array(halves, float).reshape(-1, 2, 2), 2, 0)
+    rate = hits.sum(axis=1) / sizes.sum(axis=1)
+    # What was caught throughout, or never, tells nothing; nor do halves of a single well.
+    told = (rate > 0) & (rate < 1) & (sizes.mean(axis=1) > 1)
+    hits, sizes, rate = hits[told], sizes[told], rate[told, None]
+    squares = float(((hits - sizes * rate) ** 2 / (sizes * rate * (1 - rate))).sum())
+    excess = squares - told.sum()
+    return float(min(excess / (sizes.mean(axis=1) - 1).sum(), 1.0)) if excess > 0 else 0.0
+
+
 @dataclass(frozen=True)
 class Rate:
-    """So many of so many, with the exact 95 % interval (Clopper and Pearson, 1934)."""
+    """So many of so many, with a 95 % interval for further runs, which differ by ``spread``."""
 
     hits: int
     of: int
+    spread: float = 0.0
+
+    @property
+    def design_effect(self) -> float:
+        return 1.0 + max(self.of - 1, 0) * self.spread
 
     @property
     def interval(self) -> tuple[float, float]:
-        """Whatever the true rate, this covers it in at least 95 of 100 such counts."""
-        rest, tail = self.of - self.hits, (1 - LEVEL) / 2
-        low = beta.ppf(tail, self.hits, rest + 1) if self.hits else 0.0
-        high = beta.ppf(1 - tail, self.hits + 1, rest) if rest else 1.0
+        """Whatever the true rate, this covers it in at least 95 of 100 counts without a spread."""
+        tail = (1 - LEVEL) / 2
+        hits, rest = (count / self.design_effect for count in (self.hits, self.of - self.hits))
+        low = betaincinv(hits, rest + 1, tail) if self.hits else 0.0
+        high = betaincinv(hits + 1, rest, 1 - tail) if self.of > self.hits else 1.0
         return float(low), float(high)
 
     def to_json(self) -> dict[str, float | int]:
@@ -44,10 +68,10 @@ class Rate:
         return {"hits": self.hits, "of": self.of, "low": round(low, 4), "high": round(high, 4)}
 
 
-def rate_of(hits: Iterable[bool]) -> Rate:
+def rate_of(hits: Iterable[bool], spread: float = 0.0) -> Rate:
     """Of what happened and what did not."""
     told = list(hits)
-    return Rate(sum(told), len(told))
+    return Rate(sum(told), len(told), spread)
 
 
 @dataclass(frozen=True)
@@ -73,7 +97,7 @@ class SmallestLeftover:
 
 
 def smallest_leftover(
-    shares: Sequence[float], caught: Sequence[bool], false_alarms: Rate
+    shares: Sequence[float], caught: Sequence[bool], false_alarms: Rate, spread: float = 0.0
 ) -> SmallestLeftover | None:
     """From leftovers of several sizes; ``None`` without any, or where normal wells are flagged
     more often than :data:`MOST_FALSE_ALARMS` for certain.
@@ -81,7 +105,8 @@ def smallest_leftover(
     The more is left, the likelier it is caught: a curve that rises with the logarithm of the share
     (normal distribution), from the rate of false alarms to one less what is missed at any size.
     All curves of a grid are weighed by how well they explain what was seen; beforehand all are as
-    likely, but that few faults of any size are missed (Beta(1, 10), as psychophysics has it).
+    likely, but that few faults of any size are missed (Beta(1, 10), as psychophysics has it). What
+    was seen weighs as much as the effective number of wells, by ``spread``.
     """
     if not len(shares) or false_alarms.interval[0] > MOST_FALSE_ALARMS:
         return None
@@ -94,6 +119,7 @@ def smallest_leftover(
     seen = np.clip(base + (1 - base) * (1 - lapse) * rising, 1e-6, 1 - 1e-6)
     hit = np.asarray(caught, bool)[:, None]
     weight = np.where(hit, np.log(seen), np.log1p(-seen)).sum(axis=0)
+    weight /= Rate(0, len(shares), spread).design_effect
     weight += 9 * np.log1p(-lapse)
     weight = np.exp(weight - weight.max())
     wanted = np.clip((CAUGHT - base) / ((1 - base) * (1 - lapse)), 0.0, 1.0)

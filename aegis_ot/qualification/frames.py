@@ -37,9 +37,7 @@ def true_samples(
     """The deliveries of a run with four frames, labelled by the plan, and what their frames are.
 
     Args:
-        store: The sidecar's.
-        run: In it.
-        plan: Of the run; see :func:`~.opening.open_plan` for whether it is.
+        store, run, plan: As for :func:`~.opening.open_plan`, which checks them.
         detector: Finds the tips; the robot's positions register the camera, on real frames.
     """
     recorded = recorded_runs(store, detector, [run])[0]

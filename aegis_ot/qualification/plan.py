@@ -10,7 +10,6 @@ import random
 import re
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
-from typing import Any
 
 from ..errors import ConfigurationError
 from ..planted import AIR, LEFT, MORE, NO_TIP, NORMAL, NOTHING
@@ -256,8 +255,3 @@ def plan_in(text: str, name: str = "the protocol") -> QualificationPlan:
     except (AttributeError, KeyError, SyntaxError, TypeError, ValueError):
         pass
     raise ConfigurationError(f"{name} is no protocol that aegis-ot qualify wrote: it has no plan.")
-
-
-def settings_text(settings: dict[str, Any]) -> str:
-    """Keyword arguments as a protocol has them."""
-    return ", ".join(f"{name}={value!r}" for name, value in settings.items())

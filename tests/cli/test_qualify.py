@@ -95,9 +95,11 @@ def test_what_is_no_certificate_is_refused_before_the_run(aegis: Command, tmp_pa
     camera = {"sharpness": 0.2, "light": 90.0, "places": {}, "size": [960, 540]}
     told = {"format": "aegis-ot qualification", "version": 2, "camera": camera}
     told |= dict.fromkeys(("run", "began", "robot", "pipette", "mount", "tips"), "x")
-    check_certificate(told)
+    check_certificate(told)  # of an earlier version, whose intervals were of one run
+    check_certificate(told | {"version": 3})
     file = tmp_path / "certificate.json"
-    for wrong in ([], {}, told | {"version": 1}, told | {"camera": camera | {"light": "x"}},
+    for wrong in ([], {}, told | {"version": 1}, told | {"version": 4},
+                  told | {"camera": camera | {"light": "x"}},
                   told | {"camera": camera | {"places": 3}}, told | {"camera": None}):  # fmt: skip
         file.write_text(json.dumps(wrong), encoding="utf-8")
         answer = aegis("qualify", "--simulated", "--pipette", "p300_single_gen2:left", "--previous",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import zipfile
 from pathlib import Path
 from typing import Any
@@ -10,19 +11,23 @@ from typing import Any
 import cv2
 import numpy as np
 import pytest
+from syrupy.assertion import SnapshotAssertion
 
 from aegis_ot.errors import ConfigurationError
+from aegis_ot.planted import NO_TIP, NORMAL
 from aegis_ot.qualification.camera_state import camera_state, changes
-from aegis_ot.qualification.certificate import certificate
+from aegis_ot.qualification.certificate import certificate, certificate_html, count_liquid
+from aegis_ot.qualification.counting import Rate
+from aegis_ot.qualification.fitted import flagged_anew, judge_anew
 from aegis_ot.qualification.frames import export_archive, true_samples, write_frames
-from aegis_ot.qualification.opening import open_plan
-from aegis_ot.qualification.page import certificate_html
-from aegis_ot.qualification.plan import make_plan
+from aegis_ot.qualification.opening import JudgedDelivery, open_plan
+from aegis_ot.qualification.plan import CALIBRATING, make_plan
 from aegis_ot.qualification.running import run_simulated
 from aegis_ot.sidecar.store import Store
 from aegis_ot.sidecar.store.opening import open_store
 from aegis_ot.vision.dataset import load_dataset
 from aegis_ot.vision.detection import HeatmapDetector
+from aegis_ot.vocabulary import KeyframeKind
 
 PLAN = make_plan("p300_single_gen2", "right", ["red"], 15, 3)
 
@@ -36,8 +41,13 @@ def run(tmp_path_factory: pytest.TempPathFactory) -> tuple[Store, str]:
 
 
 @pytest.fixture(scope="module")
-def made(run: tuple[Store, str]) -> dict[str, Any]:
-    return certificate(*run, PLAN, HeatmapDetector())
+def anew(run: tuple[Store, str]) -> dict[str, bool]:
+    return flagged_anew(judge_anew(true_samples(*run, PLAN, HeatmapDetector())[0]))
+
+
+@pytest.fixture(scope="module")
+def made(run: tuple[Store, str], anew: dict[str, bool]) -> dict[str, Any]:
+    return certificate(*run, PLAN, HeatmapDetector(), anew=anew)
 
 
 def test_what_was_planted_is_counted_blind(made: dict[str, Any]) -> None:
@@ -51,6 +61,60 @@ def test_what_was_planted_is_counted_blind(made: dict[str, Any]) -> None:
     assert sum(row["caught"]["of"] for row in red["rows"]) == 12
     # Nobody was told of the plan: the store holds no word of it.
     assert made["record"]["plan"]["seed"] == 3
+
+
+def test_each_half_is_judged_by_itself(anew: dict[str, bool], made: dict[str, Any]) -> None:
+    """All but the tip that nobody sees. So short a plan has no normal wells but those that
+    calibrate each half."""
+    judged = {each.well for each in PLAN.deliveries if each.kind not in (NORMAL, NO_TIP)}
+    assert anew.keys() == judged
+    assert sum(anew.values()) >= 7
+    assert 0 <= made["liquids"][0]["spread"] <= 1
+    assert made["liquids"][0]["normals_spread"] is None
+
+
+def _by_halves(first: bool, second: bool) -> dict[str, bool]:
+    return {each.well: first if each.half == 1 else second for each in PLAN.deliveries}
+
+
+def test_halves_that_differ_make_claims_wider(run: tuple[Store, str]) -> None:
+    told = {}
+    for second in (True, False):
+        made = certificate(*run, PLAN, HeatmapDetector(), anew=_by_halves(True, second))
+        told[second] = made["liquids"][0], certificate_html(made)
+    (agreeing, page), (differing, wider) = told[True], told[False]
+    assert (agreeing["spread"], differing["spread"]) == (0.0, 1.0)
+    assert "for further runs here" in page
+    assert "differ by more than chance" not in page
+    assert "intraclass correlation of what was planted 1.00, of normal wells 1.00" in wider
+    for name in ("caught", "normals_flagged"):
+        narrow, wide = agreeing[name], differing[name]
+        assert (narrow["hits"], narrow["of"]) == (wide["hits"], wide["of"])
+        exact = Rate(narrow["hits"], narrow["of"]).to_json()
+        assert narrow == exact
+        assert wide["low"] <= exact["low"]
+        assert wide["high"] >= exact["high"]
+        assert wide["high"] - wide["low"] > exact["high"] - exact["low"]
+
+
+def test_the_page_reads_as_it_did(made: dict[str, Any], snapshot: SnapshotAssertion) -> None:
+    """Of verdicts that are told here, not seen: a better camera changes nothing in it."""
+    frames = [{"kind": kind.value, "late": False} for kind in KeyframeKind]
+    deliveries = []
+    for number, planned in enumerate(PLAN.deliveries):
+        is_caught = planned.kind != NORMAL and (planned.half == 1 or planned.share >= 0.5)
+        entry: Any = {"judged": {"outcome": "fail" if is_caught else "pass"}, "keyframes": frames}
+        deliveries.append(JudgedDelivery(planned, number < CALIBRATING, entry))
+    anew = {each.planned.well: each.is_flagged for each in deliveries}
+    page = certificate_html(made | {"liquids": [count_liquid("red", deliveries, PLAN, anew)]})
+    counts = page[page.index("<p>The robot failed on purpose") : page.index("</section>")]
+    assert re.sub(r"\s*(<[^>]+>\s*)+", "\n", counts) == snapshot
+
+
+def test_halves_that_nobody_could_judge_are_told(run: tuple[Store, str]) -> None:
+    made = certificate(*run, PLAN, HeatmapDetector())
+    assert made["liquids"][0]["spread"] is None
+    assert "these intervals are of this run alone" in certificate_html(made)
 
 
 def test_the_record_has_a_hash_of_every_frame(made: dict[str, Any], run: tuple[Store, str]) -> None:

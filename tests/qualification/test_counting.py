@@ -10,7 +10,7 @@ import pytest
 from scipy.stats import norm
 
 from aegis_ot.planted import LEFT, NORMAL
-from aegis_ot.qualification.counting import Rate, rate_of, smallest_leftover
+from aegis_ot.qualification.counting import Rate, rate_of, smallest_leftover, spread_between
 from aegis_ot.qualification.plan import make_plan
 
 LABORATORIES = 60
@@ -20,6 +20,53 @@ def test_an_interval_is_exact() -> None:
     assert Rate(0, 10).interval == pytest.approx((0.0, 0.3085), abs=1e-4)
     assert Rate(9, 10).interval == pytest.approx((0.555, 0.9975), abs=1e-3)
     assert Rate(0, 0).interval == (0.0, 1.0)
+
+
+@pytest.mark.parametrize("of", [1, 2, 14, 24])
+def test_an_interval_widens_with_the_spread_and_holds_the_share(of: int) -> None:
+    for hits in range(of + 1):
+        narrow = Rate(hits, of).interval
+        for spread in (0.02, 0.1, 0.4, 1.0):
+            low, high = Rate(hits, of, spread).interval
+            assert 0.0 <= low <= hits / of <= high <= 1.0
+            assert low <= narrow[0]
+            assert narrow[1] <= high
+            narrow = low, high
+
+
+def test_a_run_whose_wells_are_all_alike_is_worth_one_well() -> None:
+    assert Rate(24, 24, 1.0).interval == pytest.approx(Rate(1, 1).interval)
+    assert Rate(0, 24, 1.0).interval == pytest.approx(Rate(0, 1).interval)
+
+
+def test_halves_that_agree_leave_the_interval_as_it_is() -> None:
+    assert spread_between([((5, 7), (5, 7)), ((1, 2), (1, 2)), ((0, 6), (1, 6))]) == 0.0
+    assert spread_between([((7, 7), (7, 7)), ((0, 6), (0, 6))]) == 0.0  # nothing tells
+    assert spread_between([((1, 1), (0, 1))]) == 0.0  # as one well, nor does that
+    assert spread_between([]) == 0.0
+
+
+def test_halves_that_differ_have_a_spread() -> None:
+    some, more = spread_between([((4, 7), (2, 7))]), spread_between([((5, 7), (2, 7))])
+    assert 0 < some < more < spread_between([((7, 7), (0, 7))]) == 1.0
+    # What agrees beside it makes it smaller.
+    assert spread_between([((5, 7), (2, 7)), ((3, 6), (3, 6))]) < more
+
+
+def test_the_spread_is_found_on_average() -> None:
+    """Of halves whose rates are drawn (beta distribution) with a spread that is known."""
+    rng = np.random.default_rng(5)
+    for true in (0.05, 0.2, 0.5):
+        found = []
+        for _ in range(300):
+            groups = []
+            for middle, size in ((0.5, 12), (0.3, 12), (0.6, 24)):
+                more = (1 - true) / true
+                rates = rng.beta(middle * more, (1 - middle) * more, size=2)
+                one, other = (int(rng.binomial(size, rate)) for rate in rates)
+                groups.append(((one, size), (other, size)))
+            found.append(spread_between(groups))
+        assert np.mean(found) == pytest.approx(true, abs=0.1)
 
 
 @pytest.mark.parametrize("hits", [0, 1, 2, 3, 4])
@@ -84,6 +131,17 @@ def test_leftovers_that_are_all_caught_have_a_small_one() -> None:
     assert claim.share is not None
     # Less was never planted: "10 % or less" is all that can be said.
     assert claim.share == claim.low == claim.planted == 0.1
+
+
+def test_the_smallest_leftover_is_less_certain_where_runs_differ() -> None:
+    shares = [0.1, 0.2, 0.3, 0.4, 0.5, 0.75, 1.0] * 2
+    caught = [share >= 0.3 for share in shares]
+    claims = [smallest_leftover(shares, caught, Rate(0, 18), spread) for spread in (0.0, 0.1, 0.5)]
+    assert all(claim is not None for claim in claims)
+    lows, highs = zip(*((c.low, c.high or math.inf) for c in claims if c is not None), strict=True)
+    assert list(lows) == sorted(lows, reverse=True)
+    assert list(highs) == sorted(highs)
+    assert lows[0] > lows[-1]
 
 
 def test_nothing_is_told_of_leftovers_where_normal_wells_are_flagged_too() -> None:
