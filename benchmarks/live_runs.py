@@ -168,11 +168,22 @@ def keyframes_of(run: Run, number_of_wells: int) -> list[list[Any]]:
                 replace(
                     frame, kind=kind, sequence=4 * number + place,
                     expected_ul=volume if kind in loaded else 0.0,
+                    position=_place_of(kind, number),
                 )
                 for place, kind in enumerate(KeyframeKind)
             ]
         )  # fmt: skip
     return wells
+
+
+def _place_of(kind: Any, number: int) -> tuple[float, float, float]:
+    """Where a guarded robot holds the tip's end, mm: at the well's top before and after."""
+    from aegis_ot.vocabulary import KeyframeKind
+
+    if kind is KeyframeKind.ASPIRATE:
+        return 146.9, 42.8, 5.6
+    height = 4.5 if kind is KeyframeKind.DISPENSE else 14.3
+    return 279.3 + 9.0 * (number // 8), 74.2 - 9.0 * (number % 8), height
 
 
 def measure(

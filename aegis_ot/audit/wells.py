@@ -14,11 +14,12 @@ from ..vision.column_reader import MeasuredColumns
 from ..vision.consistency import guesses_in, second_look
 from ..vision.delivery import Delivery, delivery_of
 from ..vision.first_wells import Liquid, liquid_of
+from ..vision.scorers.looks import hang_alike
 from ..vision.scorers.looks import looks as scorer_looks
 from ..vision.scorers.patches import describe
 from ..vision.tips import tip_for
-from ..vision.types import Detector, Frames, TrajectorySample
-from ..vocabulary import Keyframe
+from ..vision.types import FREE, Detector, Frames, TrajectorySample
+from ..vocabulary import Keyframe, KeyframeKind
 from ..worldmodel.recorded import recorded_runs
 
 
@@ -99,8 +100,10 @@ def _well(
     sample = replace(recorded, frames=frames, detections=detections)
     tip = tip_for(keyframe.pipette, keyframe.capacity_ul)
     reader = MeasuredColumns()
+    alike = hang_alike(detections, sample.positions)
+    before = detections.get(KeyframeKind.TRANSIT) if alike else None
     looks = {
-        kind: reader.look(frames, kind, found, tip)
+        kind: reader.look(frames, kind, found, tip, None, before if kind is FREE[1] else None)
         for kind, found in detections.items()
         if found is not None
     }

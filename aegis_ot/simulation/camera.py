@@ -172,7 +172,6 @@ class SimulatedCamera:
             dye_for(keyframe.reagent, self._colours),
             source=source,
             destination=destination,
-            transit_over="destination" if keyframe.destinations else "source",
         )
         return replace(scene, tip_name=keyframe.tip)
 

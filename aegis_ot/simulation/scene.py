@@ -88,14 +88,15 @@ def place_tip(
     *,
     source: str = "A1",
     destination: str = "A1",
-    transit_over: Literal["source", "destination"] = "source",
+    transit_over: Literal["source", "destination"] = "destination",
 ) -> SceneState:
     """The state of a frame from the wells concerned.
 
     ASPIRATE and DISPENSE are taken with the tip's end inside the well, the others with the tip
-    raised; source wells lie in the first labware, destinations in the second. A TRANSIT frame
-    is taken over the one or the other: robots differ. Wells outside the labware's grid are put
-    at its nearest well: the scene has two blocks, the deck eleven.
+    raised; source wells lie in the first labware, destinations in the second. A guarded robot
+    holds TRANSIT where it holds POST_DISPENSE, above the destination; plates that somebody
+    photographed show it over the source. Wells outside the labware's grid are put at its nearest
+    well: the scene has two blocks, the deck eleven.
     """
     at_source = kind is KeyframeKind.ASPIRATE or (
         kind is KeyframeKind.TRANSIT and transit_over == "source"
@@ -119,8 +120,6 @@ def place_tip(
     # Shallow wells end sooner; a third of the tip at most is ever hidden.
     depth = min(block.height_mm - 3.0, 9.0, tip.length_mm / 4)
     z = block.height_mm + (-depth if inside else RAISE_MM)
-    if kind is KeyframeKind.TRANSIT:
-        z += 6.0
     return SceneState(
         kind=kind,
         tip=tip,

@@ -11,7 +11,7 @@ import numpy as np
 from ..vocabulary import Keyframe, KeyframeKind, Outcome, Route
 from .calibration import CalibrationSettings, CalibrationState
 from .cascade import Cascade
-from .column import TipShape
+from .column import TipShape, shapes_of
 from .column_look import Look, Looks
 from .column_reader import MeasuredColumns
 from .consistency import TipConsistency, guesses_in, second_look, stands_at
@@ -19,9 +19,9 @@ from .gates import GateInput, Gates, VolumetricGate
 from .lab_limits import LabLimits
 from .outlines import Outlines
 from .run_scorer import LEAST_ALARM, RunScorer
-from .scorers.looks import look
+from .scorers.looks import hang_alike, look
 from .tips import TipGeometry, tip_for
-from .types import FREE, Detector, Frames, Scorer, TipDetection, TrajectorySample
+from .types import FREE, Detector, Frames, Position, Scorer, TipDetection, TrajectorySample
 from .usual import ENOUGH
 
 _MODEL_WEIGHT = 4.0
@@ -63,6 +63,18 @@ class OpenTrajectory:
     cut_off: bool = False
 
     @property
+    def before(self) -> TipDetection | None:
+        """The tip in TRANSIT, where the one in POST_DISPENSE hangs at the same place."""
+        alike = hang_alike(self.detections, self.positions)
+        return self.detections.get(KeyframeKind.TRANSIT) if alike else None
+
+    @property
+    def positions(self) -> dict[KeyframeKind, Position]:
+        """Where the robot held the tip's end, of the keyframes that say so."""
+        told = {kind: keyframe.position for kind, keyframe in self.keyframes.items()}
+        return {kind: place for kind, place in told.items() if place is not None}
+
+    @property
     def last(self) -> Keyframe:
         """The keyframe that was captured last."""
         return max(self.keyframes.values(), key=lambda keyframe: keyframe.sequence)
@@ -81,6 +93,7 @@ class OpenTrajectory:
             detections=self.detections,
             expected_ul={kind: frame.expected_ul for kind, frame in self.keyframes.items()},
             reagent=last.reagent or "",
+            positions=self.positions,
         )
 
 
@@ -168,9 +181,10 @@ class CalibrationGroup:
         """Measure the tip in one frame; without ``shape``, by the outline of the run's tips."""
         tip = _tip_of(seen.keyframes[kind])
         shape = shape or self.outlines.known(tip)
-        if kind in FREE and shape is None:
+        if kind in FREE and shape is None and len(shapes_of(tip)) > 1:
             self.outlines.note(look(seen.frames, kind, detection, tip))
-        seen.looks[kind] = self.reader.look(seen.frames, kind, detection, tip, shape)
+        before = seen.before if kind is KeyframeKind.POST_DISPENSE else None
+        seen.looks[kind] = self.reader.look(seen.frames, kind, detection, tip, shape, before)
 
     def settle(self, seen: OpenTrajectory, detector: Detector) -> None:
         """Put the detections right by each other and the robot's word, and look anew at those."""
@@ -188,14 +202,14 @@ class CalibrationGroup:
         lit = {k: tip for k, tip in hanging.items() if self.tip.lit_alike(k, seen.frames)}
         settled |= lit
         seen.excused = tuple(kind for kind in seen.excused if kind not in lit)
+        found, seen.detections = seen.detections, settled
         for kind, detection in settled.items():
-            if detection is seen.detections[kind] and (detection is None or kind in seen.looks):
+            if detection is found[kind] and (detection is None or kind in seen.looks):
                 continue
             seen.looks.pop(kind, None)
             if detection is not None:
                 self.look(seen, kind, detection)
-        self._lay_alike(seen, settled)
-        seen.detections = settled
+        self._lay_alike(seen)
 
     def _excused(
         self, seen: OpenTrajectory, settled: Mapping[KeyframeKind, TipDetection | None]
@@ -206,17 +220,17 @@ class CalibrationGroup:
             if settled.get(kind) is None and self.tip.excuses(kind, settled, seen.frames)
         )
 
-    def _lay_alike(
-        self, seen: OpenTrajectory, settled: Mapping[KeyframeKind, TipDetection | None]
-    ) -> None:
-        """Have both free frames laid straight by the outline that the run's tips have so far."""
+    def _lay_alike(self, seen: OpenTrajectory) -> None:
+        """Have both free frames laid straight by the outline that the run's tips have so far, and
+        by one axis where the tip hangs at one place in both."""
         for kind in FREE:
-            detection = settled.get(kind)
+            detection = seen.detections.get(kind)
             if detection is None or kind not in seen.looks:
                 continue
             tip = _tip_of(seen.keyframes[kind])
             shape = self.outlines.best(tip)
-            if shape is not None and look(seen.frames, kind, detection, tip).shape != shape:
+            other = shape and look(seen.frames, kind, detection, tip).shape != shape
+            if other or (kind is KeyframeKind.POST_DISPENSE and seen.before is not None):
                 self.look(seen, kind, detection, shape)
 
     def learn(self, sample: TrajectorySample, looks: Looks, scored: bool) -> None:

@@ -13,11 +13,11 @@ from .column import Deliveries, TipShape, WetAndDry, Wetness, at_one_place, ceil
 from .column_look import Look, Looks
 from .drawn import drawn_top
 from .measuring import ColumnReading, SeenColumn
-from .scorers.looks import look
+from .scorers.looks import look, look_again
 from .tip_scale import NEAR, TipScale
 from .tips import TipGeometry
 from .types import FREE, Image, TipDetection
-from .usual import LEFT, Usual, alike
+from .usual import IN_ANY_LIGHT, LEFT, Usual, alike
 
 Volumes = Mapping[KeyframeKind, float]
 Well = tuple[Looks, Volumes]
@@ -80,15 +80,23 @@ class MeasuredColumns:
         detection: TipDetection,
         tip: TipGeometry,
         shape: TipShape | None = None,
+        before: TipDetection | None = None,
     ) -> Look:
         """What is needed of one frame, taken as soon as it arrives: frames are not kept.
 
-        ``shape``: the tip's outline, once the run has shown which it is.
+        ``shape``: the tip's outline, once the run has shown which it is. ``before``: the tip in
+        TRANSIT, where it hangs at one place with this one; both are laid by that frame's axis.
         """
         self._contrast.prepare()
         self._deliveries.prepare()
         # Shared with the scorers: each frame is straightened once.
-        seen = look(frames, kind, detection, tip, shape=shape)
+        full = None
+        if before is not None:
+            full = look(frames, KeyframeKind.TRANSIT, before, tip, shape=shape)
+        if full is None or full.washed_out:
+            seen = look(frames, kind, detection, tip, shape=shape)
+        else:
+            seen = look_again(frames, detection, tip, full)
         light = float(np.median(frames[kind][::16, ::16]))
         return Look(seen.profile, tip, light, (seen.collar, seen.orifice))
 
@@ -212,7 +220,7 @@ class MeasuredColumns:
         margin = self._scale.margin(top)
         self._contrast.learn(seen.profile, top, margin)
         before = _loaded(kind, looks, expected)
-        if before is not None:
+        if before is not None and alike(before.light, seen.light):
             full = self._scale.place(seen.tip, expected[KeyframeKind.TRANSIT])
             margin = self._scale.margin(full)
             self._deliveries.learn_pair(before.profile, seen.profile, full, margin)
@@ -314,6 +322,8 @@ class MeasuredColumns:
             full = self._scale.place(seen.tip, expected[KeyframeKind.TRANSIT])
             full = max(full + self._scale.margin(full), low)
             paired = self._deliveries.read_pair(before.profile, seen.profile, full)
+            if paired is not None and not alike(before.light, seen.light):
+                paired = paired if paired.power >= IN_ANY_LIGHT else None
         told = (paired, self._contrast.read(seen.profile, low))
         return [wet for wet in told if wet is not None and wet.weight.any()]
 
@@ -326,6 +336,6 @@ def _loaded(kind: KeyframeKind, looks: Looks, expected: Volumes) -> Look | None:
         return None
     if before is None or after is None:
         return None
-    if before.axis is None or after.axis is None or not alike(before.light, after.light):
+    if before.axis is None or after.axis is None:
         return None
     return before if at_one_place(before.axis, after.axis) else None

@@ -45,6 +45,10 @@ _EMPTIED, _LEFT = 0.5, 0.3
 """Change of the lower half, as a share of what the upper rows let expect: at least the first where
 the liquid left, at most the second where it stayed."""
 
+_UPPER = (3, 6)
+"""Parts of the rows of which the uppermost must show that liquid left; the smaller one where most
+of the column stayed."""
+
 _SECTIONS = 12
 
 _GAP_SURE, _GAP_SURE_WIDE, _GAP_WIDE_PX = 8.5, 6.0, 6.0
@@ -147,9 +151,12 @@ def _compared(
     change = across(change_between(before.profile, after.profile))
     width = np.asarray(tip.inner_radius((1.0 - u) * tip.length_mm), dtype=np.float64)
     rows = np.flatnonzero(inside)
-    upper = rows[: max(len(rows) // 3, 1)]
-    mean = change[upper].mean(axis=0)
-    strength = float(np.linalg.norm(mean))
+    for part in _UPPER:
+        upper = rows[: max(len(rows) // part, 1)]
+        mean = change[upper].mean(axis=0)
+        strength = float(np.linalg.norm(mean))
+        if strength >= PLAIN:
+            break
     if strength < PLAIN:
         return Delivery(Shown.NOTHING, strength / float(width[upper].mean()))
     along = change @ (mean / strength)

@@ -40,7 +40,7 @@ simulated plates, p20 (bore 2 px) as p1000 (6 px); without it, by 2.3 and 1.4 to
 
 _LEAST_SD = 0.06
 
-_IN_ANY_LIGHT = 16.0
+IN_ANY_LIGHT = 16.0
 """Power of a liquid that is seen in a frame 1.6 to 3 times brighter or darker than the run's too:
 on simulated frames of development seeds 704 of 830 wells with liquid left in the tip were read so,
 and of 279 normal ones none was misread; in fainter liquids 25 of 136, and 1 of 48."""
@@ -126,7 +126,7 @@ class Usual:
 
     def readable(self, wet: Wetness, light: float) -> bool:
         """Whether a frame of this brightness can be read; one blown out or black fits no tip."""
-        return wet.power >= _IN_ANY_LIGHT or self.comparable(light)
+        return wet.power >= IN_ANY_LIGHT or self.comparable(light)
 
 
 def alike(light: float, other: float) -> bool:

@@ -264,6 +264,23 @@ def test_the_same_seed_gives_the_same_frame() -> None:
     assert not np.array_equal(first, other)
 
 
+@pytest.mark.parametrize("channels", [1, 8])
+def test_a_guarded_robot_holds_a_tip_at_one_place_before_and_after_its_dispense(
+    channels: int,
+) -> None:
+    wells = {"source": "A3", "destination": "C4"}
+    there = [
+        place_tip(WEBCAM, kind, P1000, (TipContent(),) * channels, **wells).orifice
+        for kind in (KeyframeKind.TRANSIT, KeyframeKind.POST_DISPENSE)
+    ]
+    assert there[0] == there[1]
+    over_source = place_tip(
+        WEBCAM, KeyframeKind.TRANSIT, P1000, (TipContent(),) * channels, **wells,
+        transit_over="source",
+    )  # fmt: skip
+    assert over_source.orifice != there[0], "as photographed plates have it"
+
+
 @pytest.mark.parametrize("pipette", ["p20", "p300_multi_gen2", "flex_1channel_1000"])
 def test_drawn_sessions_keep_the_tip_in_view(pipette: str) -> None:
     tip = tip_for(pipette)

@@ -15,7 +15,7 @@ from .test_run_analyser_factory import keyframes
 
 def delivery(fault: str = "", reagent: str = "red dye", kept: float = 0.0) -> Delivery:
     camera = SimulatedCamera(5, [f"{fault}@#1"] if fault else [], SessionParameters.bench(5))
-    reader, looks, expected = MeasuredColumns(), {}, {}
+    reader, looks, expected, frames, before = MeasuredColumns(), {}, {}, {}, None
     for keyframe in keyframes(1, reagent=reagent):
         camera.announce(keyframe)
         frame, truth = camera.frame_after(0.0, 1.0), camera.truth
@@ -24,9 +24,11 @@ def delivery(fault: str = "", reagent: str = "red dye", kept: float = 0.0) -> De
         tip = truth.tip
         found = TipDetection(*truth.box, 0.9, tip.orifice, tip.collar)
         expected[keyframe.kind] = keyframe.expected_ul + kept
+        frames[keyframe.kind] = frame.image
         looks[keyframe.kind] = reader.look(
-            {keyframe.kind: frame.image}, keyframe.kind, found, tip_for(keyframe.pipette)
+            frames, keyframe.kind, found, tip_for(keyframe.pipette), None, before
         )
+        before = found
     return delivery_of(looks, expected)
 
 

@@ -78,7 +78,7 @@ def test_a_first_well_that_shows_nothing_is_asked_about_all_the_same() -> None:
 
 def test_in_a_run_no_liquid_is_never_passed_over_in_silence() -> None:
     """After the operator's word on the first well, clear wells pass; not where none was found."""
-    judged = judge_run(8, reagent="water", seed=1, operator=True, probed={4: False, 5: True})
+    judged = judge_run(8, reagent="water", seed=2, operator=True, probed={4: False, 5: True})
     outcomes = [verdict.outcome for verdict, _ in judged]
     assert [n for n, one in enumerate(outcomes) if one is Outcome.UNDECIDED] == [0, 4]
     assert judged[4][0].gate is Gate.OPERATOR

@@ -84,10 +84,8 @@ def judge_run(
     probed: Mapping[int, bool] | None = None,
     lights: Mapping[int, float] | None = None,
     monitor: Callable[[Told], RunAnalyserFactory] = RunAnalyserFactory,
-    one_place: bool = False,
 ) -> list:
-    """``lights``: how much brighter a well's frame after the dispense is, by number from 1.
-    ``one_place``: TRANSIT is taken where POST_DISPENSE is, as on a robot."""
+    """``lights``: how much brighter a well's frame after the dispense is, by number from 1."""
     parameters = SessionParameters.webcam(seed)
     plan, rng, detector = FaultPlan(faults), np.random.default_rng(seed), Told()
     analyser = monitor(detector).begin("run", history)
@@ -99,14 +97,6 @@ def judge_run(
             parameters, keyframe.kind, tip_for(keyframe.pipette, keyframe.capacity_ul), contents,
             dye_for(keyframe.reagent), destination=keyframe.destinations[0].name,
         )  # fmt: skip
-        if one_place and keyframe.kind is KeyframeKind.TRANSIT:
-            state = replace(
-                place_tip(
-                    parameters, KeyframeKind.POST_DISPENSE, state.tip, contents, state.dye,
-                    destination=keyframe.destinations[0].name,
-                ),
-                kind=keyframe.kind,
-            )  # fmt: skip
         light = (lights or {}).get(keyframe.trajectory + 1, 0.0)
         emptied = keyframe.kind is KeyframeKind.POST_DISPENSE
         session = replace(parameters, overexposed_chance=1.0, overexposed_gain=light)
@@ -140,20 +130,17 @@ def test_other_volumes_than_those_of_equal_first_wells_raise_no_alarm(seed) -> N
     assert {verdict.outcome for verdict, _ in judged} == {Outcome.PASS}
 
 
-def test_neither_do_they_where_both_frames_stand_at_one_place() -> None:
+def test_neither_do_they_in_water() -> None:
     judged = judge_run(
-        18, volumes=EQUAL_THEN_VARIED, pipette="p300", reagent="water", one_place=True,
-        operator=True,
-    )  # fmt: skip
+        18, volumes=EQUAL_THEN_VARIED, pipette="p300", reagent="water", operator=True
+    )
     asked = [number for number, (verdict, _) in enumerate(judged) if verdict.outcome != "pass"]
     assert asked == [1], "once, whether water is seen to leave at all"
 
 
-def test_water_that_stays_is_seen_where_both_frames_stand_at_one_place() -> None:
+def test_water_that_stays_is_seen() -> None:
     faults = ("partial:25@#8", "no_dispense@#10")
-    judged = judge_run(
-        11, faults, pipette="p300", reagent="water", one_place=True, operator=True, seed=3
-    )
+    judged = judge_run(11, faults, pipette="p300", reagent="water", operator=True, seed=3)
     outcomes = [verdict.outcome for verdict, _ in judged[2:]]
     assert outcomes == [
         *[Outcome.PASS] * 5,

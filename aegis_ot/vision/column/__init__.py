@@ -9,12 +9,12 @@ from .measure import (
     TipLook,
     ceiling,
     expected_top,
+    look_along,
     look_at_tip,
-    look_beside,
     read_column,
     shapes_of,
 )
-from .pair import at_one_place
+from .pair import at_one_place, held_still, shift_between
 from .profile import TipProfile
 from .strip import TipShape
 from .trajectory import RunReference, Signs, TipModel, place, weigh
@@ -36,15 +36,17 @@ __all__ = [
     "ceiling",
     "combine",
     "expected_top",
+    "held_still",
     "learn_run",
     "learn_tip",
+    "look_along",
     "look_at_tip",
-    "look_beside",
     "mean_dye",
     "nozzle_shift",
     "place",
     "read_column",
     "rectify",
     "shapes_of",
+    "shift_between",
     "weigh",
 ]

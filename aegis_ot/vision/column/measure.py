@@ -154,23 +154,33 @@ def look_at_tip(
     return TipLook(tip_profile(strip, shape, cone), cone, collar, orifice, shape, clear)
 
 
-def look_beside(
-    image: Image, detection: TipDetection, tip: TipGeometry, seen: TipLook, px: float
+def look_along(
+    image: Image,
+    detection: TipDetection,
+    tip: TipGeometry,
+    seen: TipLook,
+    px: float = 0.0,
+    moved: tuple[float, float] = (0.0, 0.0),
 ) -> TipLook:
-    """The same look with the tip's end put ``px`` px further along the tip than it was seen."""
+    """The tip laid straight by an axis that is known: of this frame, or of one at the same place.
+
+    ``px``: the tip's end is put so much further along the tip than it was seen. ``moved``: how
+    far the tip hangs from there, px.
+    """
     shape = seen.shape
     left, top = 0, 0
     if detection.apart is not None:
         image, _, (left, top) = alone(image, detection, shape_of(tip))
-    collar, orifice = (np.subtract(end, (left, top)) for end in (seen.collar, seen.orifice))
+    there = np.subtract(moved, (left, top))
+    collar, orifice = (np.add(end, there) for end in (seen.collar, seen.orifice))
     along = orifice - collar
     orifice = orifice + along * (px / max(float(np.hypot(*along)), 1.0))
     pixels, u, v = resample(image, collar, orifice, shape.rows, shape.half_width)
     upper, lower = ((float(x), float(y)) for x, y in (collar, orifice))
     strip = Strip(pixels, u, v, upper, lower, seen.profile.clarity)
     cone = unroll(strip, shape)
-    there = (lower[0] + left, lower[1] + top)
-    return TipLook(tip_profile(strip, shape, cone), cone, seen.collar, there, shape)
+    upper, lower = ((x + left, y + top) for x, y in (upper, lower))
+    return TipLook(tip_profile(strip, shape, cone), cone, upper, lower, shape)
 
 
 def read_column(

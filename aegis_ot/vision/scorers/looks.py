@@ -8,10 +8,19 @@ from typing import Any
 import numpy as np
 
 from ...vocabulary import KeyframeKind
-from ..column import TipLook, TipShape, look_at_tip, look_beside, shapes_of
+from ..column import (
+    TipLook,
+    TipShape,
+    at_one_place,
+    held_still,
+    look_along,
+    look_at_tip,
+    shapes_of,
+    shift_between,
+)
 from ..column.trajectory import LOADED
 from ..tips import TipGeometry
-from ..types import FREE, Frames, Image, TipDetection, TrajectorySample
+from ..types import FREE, Frames, Image, Position, TipDetection, TrajectorySample
 
 _PERSPECTIVE = 0.08
 """By how much the length of one tip differs between the frames of a trajectory at most: it
@@ -49,6 +58,42 @@ def look(
     return taken
 
 
+def look_again(
+    frames: Mapping[KeyframeKind, Image],
+    detection: TipDetection,
+    tip: TipGeometry,
+    before: TipLook,
+) -> TipLook:
+    """The tip in POST_DISPENSE by TRANSIT's axis: for where it hangs at one place in both.
+
+    Each frame's own axis is off by a pixel or more of its own, along the tip by far more where a
+    column was left in it, and what changed is then looked for in rows that are not the same.
+    """
+    full, kind = FREE
+    again = _measured(frames, (kind, detection, tip.name, before.collar, before.orifice))
+    if before.shape not in again:
+        axis = np.array(before.collar), np.array(before.orifice)
+        moved = shift_between(frames[full], frames[kind], *axis, before.shape)
+        if moved is None:
+            again[before.shape] = look(frames, kind, detection, tip, shape=before.shape)
+        else:
+            off = (float(moved[0]), float(moved[1]))
+            again[before.shape] = look_along(frames[kind], detection, tip, before, moved=off)
+    return again[before.shape]
+
+
+def hang_alike(
+    detections: Mapping[KeyframeKind, TipDetection | None],
+    positions: Mapping[KeyframeKind, Position | None],
+) -> bool:
+    """Whether the tip hangs at one place in both free frames."""
+    before, after = (detections.get(kind) for kind in FREE)
+    if before is None or after is None:
+        return False
+    ends = ((before.collar, before.orifice), (after.collar, after.orifice))
+    return at_one_place(*ends, held_still(positions))
+
+
 def _measured(frames: Mapping[KeyframeKind, Image], what: Hashable) -> dict[Any, TipLook]:
     """What was measured in these frames before; nothing where that is not kept with them."""
     known: dict[Any, TipLook] = {}
@@ -67,7 +112,7 @@ def looks_beside(sample: TrajectorySample, px: float) -> Mapping[KeyframeKind, T
                 frames, (kind, detection, sample.tip.name, seen.collar, seen.orifice)
             )
             if px not in beside:
-                beside[px] = look_beside(frames[kind], detection, sample.tip, seen, px)
+                beside[px] = look_along(frames[kind], detection, sample.tip, seen, px)
             found[kind] = beside[px]
     return found
 
@@ -86,11 +131,15 @@ def _looks(sample: TrajectorySample) -> Mapping[KeyframeKind, TipLook]:
     taken: dict[KeyframeKind, TipLook] = {}
     # Data sets decode a frame each time that it is asked for.
     kept = sample.frames if isinstance(sample.frames, Frames) else Frames()
+    before, after = FREE
+    alike = hang_alike(sample.detections, sample.positions)
     for kind in KeyframeKind:
         detection = sample.detections.get(kind)
         frame = None if detection is None else sample.frames.get(kind)
         if detection is not None and frame is not None:
             kept[kind] = frame
+            if kind is after and alike and before in taken:
+                continue  # by TRANSIT's axis, once that is sure
             seen = look(kept, kind, detection, sample.tip)
             if not seen.washed_out:
                 taken[kind] = seen
@@ -106,6 +155,11 @@ def _looks(sample: TrajectorySample) -> Mapping[KeyframeKind, TipLook]:
         if off or other is not None:
             length = usual if off else None
             taken[kind] = look(kept, kind, detection, sample.tip, length, other)
+    emptied = sample.detections.get(after)
+    if alike and before in taken and after in kept and emptied is not None:
+        seen = look_again(kept, emptied, sample.tip, taken[before])
+        if not seen.washed_out:
+            taken[after] = seen
     return taken
 
 

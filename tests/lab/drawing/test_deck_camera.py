@@ -16,7 +16,7 @@ from tests.simulation.test_faults import run_of
 
 Z = {
     KeyframeKind.ASPIRATE: 4.0,
-    KeyframeKind.TRANSIT: 48.0,
+    KeyframeKind.TRANSIT: 35.0,
     KeyframeKind.DISPENSE: 3.0,
     KeyframeKind.POST_DISPENSE: 35.0,
 }
@@ -27,7 +27,7 @@ def placed(wells: list[str], slot: str = "9", channels: int = 1) -> list[Keyfram
     """A transfer per well from slot 1, with the positions that a robot would tell."""
     frames = []
     for keyframe in run_of(wells, channels=channels):
-        at_source = keyframe.kind in (KeyframeKind.ASPIRATE, KeyframeKind.TRANSIT)
+        at_source = keyframe.kind is KeyframeKind.ASPIRATE
         x, y = CORNERS["1" if at_source else slot]
         well = "A1" if at_source else keyframe.destinations[0].name
         column, row = int(well[1:]) - 1, "ABCDEFGH".index(well[0])

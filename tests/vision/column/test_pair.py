@@ -2,12 +2,25 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
-from aegis_ot.vision.column import Deliveries, TipLook, Wetness, at_one_place, look_at_tip
+from aegis_ot.vision.column import (
+    Deliveries,
+    TipLook,
+    Wetness,
+    at_one_place,
+    held_still,
+    look_at_tip,
+    shift_between,
+)
+from aegis_ot.vision.column.strip import SHAPES
+from aegis_ot.vision.scorers.looks import look_again
 from aegis_ot.vision.tips import tip_for
 from aegis_ot.vision.types import Image
+from aegis_ot.vocabulary import KeyframeKind
 
 from .drawn import FULL, detection, draw_tip
 
@@ -76,3 +89,46 @@ def test_a_tip_that_was_raised_stands_elsewhere() -> None:
     axis = ((100.0, 50.0), (102.0, 250.0))
     assert at_one_place(axis, ((101.0, 52.0), (103.0, 253.0)))
     assert not at_one_place(axis, ((100.0, 40.0), (102.0, 240.0)))
+
+
+def test_where_the_robot_held_it_still_its_own_word_counts() -> None:
+    axis = ((100.0, 50.0), (102.0, 250.0))
+    badly_found = ((100.0, 50.0), (102.0, 230.0))
+    assert at_one_place(axis, badly_found, held=True)
+    assert not at_one_place(axis, axis, held=False)
+    assert not at_one_place(axis, ((140.0, 50.0), (142.0, 250.0)), held=True), "a replayed frame"
+
+
+def test_the_robot_says_whether_it_held_still() -> None:
+    before, after = KeyframeKind.TRANSIT, KeyframeKind.POST_DISPENSE
+    assert held_still({before: (1.0, 2.0, 3.0), after: (1.0, 2.0, 3.1)}) is True
+    assert held_still({before: (1.0, 2.0, 3.0), after: (1.0, 2.0, 9.0)}) is False
+    assert held_still({before: (1.0, 2.0, 3.0)}) is None
+
+
+COLLAR, ORIFICE = np.array((160.0, 40.0)), np.array((166.0, 225.0))
+
+
+@pytest.mark.parametrize("moved", [(0.0, 0.0), (1.0, -1.0), (-2.0, 1.0)])
+def test_a_tip_that_comes_back_is_laid_upon_itself(moved: tuple[float, float]) -> None:
+    full = draw_tip(top=FULL, seed=1)
+    again = draw_tip(collar=tuple(COLLAR + moved), orifice=tuple(ORIFICE + moved), seed=2)
+    shift = shift_between(full, again, COLLAR, ORIFICE, SHAPES["p1000"])
+    assert shift == pytest.approx(moved, abs=0.1)
+
+
+def test_frames_of_two_things_are_not_laid_upon_each_other() -> None:
+    bare = np.random.default_rng(0).normal(90, 20, (260, 320, 3)).clip(0, 255).astype(np.uint8)
+    assert shift_between(draw_tip(), bare, COLLAR, ORIFICE, SHAPES["p1000"]) is None
+
+
+def test_an_emptied_tip_is_laid_by_the_axis_of_the_filled_one() -> None:
+    """Whatever its own frame would make of it: here its end was found a tenth too high."""
+    before, after = KeyframeKind.TRANSIT, KeyframeKind.POST_DISPENSE
+    frames = {before: draw_tip(top=FULL, seed=1), after: draw_tip(top=HALF, seed=2)}
+    full = look_at_tip(frames[before], detection(), TIP)
+    high = detection()
+    high = replace(high, orifice=(high.orifice[0], high.orifice[1] - 18.0))
+    seen = look_again(frames, high, TIP, full)
+    assert seen.orifice == pytest.approx(full.orifice, abs=0.15)
+    assert seen.collar == pytest.approx(full.collar, abs=0.15)

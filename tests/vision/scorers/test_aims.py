@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from aegis_ot.vision.column import look_beside
+from aegis_ot.vision.column import look_along
 from aegis_ot.vision.models import ModelFile
 from aegis_ot.vision.run_scorer import RunScorer
 from aegis_ot.vision.scorers.aims import AIMS, aimed
@@ -42,7 +42,7 @@ def test_of_a_row_the_neighbours_stay_painted_over() -> None:
     assert np.hypot(*np.subtract(moved.orifice, seen.orifice)) == pytest.approx(1.0, abs=1e-3)
     assert moved.cone.shape == seen.cone.shape
     for each in (row, sample):
-        same = look_beside(
+        same = look_along(
             each.frames[kind], each.detections[kind], each.tip, looks(each)[kind], 0.0
         )
         np.testing.assert_allclose(same.cone, looks(each)[kind].cone, atol=1e-3)
