@@ -28,8 +28,8 @@ from .sidecar.store import DATABASE, Store
 from .sidecar.token_file import TOKEN_FILE
 from .vision.camera import Camera
 from .vision.models import load_model
-from .vision.reach import Smallest, limits_in, normals_in, shortcomings, smallest_in
 from .vocabulary import counted, without_secrets
+from .worldmodel.reach import Smallest, limits_in, normals_in, shortcomings, smallest_in
 
 _LEAST_FREE_GB = 2.0
 _FIRST_FRAME_S = 8.0

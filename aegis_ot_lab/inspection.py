@@ -15,7 +15,7 @@ from aegis_ot.vision.types import Scorer, TipDetection, TrajectorySample
 from aegis_ot.vocabulary import KeyframeKind
 from aegis_ot.worldmodel.cascade import JudgedWell, run_cascade
 from aegis_ot.worldmodel.leave_one_out import HeldOut, ScoredWell, hold_out, score_with
-from aegis_ot.worldmodel.tips import find_tips
+from aegis_ot_lab.found_tips import find_tips
 
 from .evaluation.layer2.evaluate import own_threshold
 from .scorers import make_scorer

@@ -131,11 +131,12 @@ def session_of(run: Run) -> Any:
     import numpy as np
 
     from aegis_ot.simulation import SessionParameters
+    from aegis_ot_lab.drawing.random_sessions import random_session
 
     if run.camera == "drawn":
         rng = np.random.default_rng((run.seed, 5))
         pipette, _ = (PIPETTES | FLEX)[run.pipette]
-        return SessionParameters.draw(rng, pipette=pipette, size=(960, 540))
+        return random_session(rng, pipette=pipette, size=(960, 540))
     return getattr(SessionParameters, run.camera)(run.seed)
 
 

@@ -40,6 +40,7 @@ from aegis_ot.vision.detection import HeatmapDetector
 from aegis_ot.vision.types import TipDetection, TrajectorySample
 from aegis_ot.vocabulary import Keyframe, KeyframeKind, WellRef
 from aegis_ot.worldmodel import fit_model
+from aegis_ot_lab.drawing.random_sessions import random_session
 
 from .qualification_claims import counted, coverage, show
 
@@ -61,9 +62,7 @@ class Lab:
         rng = np.random.default_rng((seed, 44))
         pipette = list(PIPETTES)[seed % len(PIPETTES)]
         liquid = str(rng.choice(LIQUIDS, p=(0.3, 0.25, 0.25, 0.2)))
-        return cls(
-            seed, pipette, liquid, SessionParameters.draw(rng, pipette=pipette, size=(960, 540))
-        )
+        return cls(seed, pipette, liquid, random_session(rng, pipette=pipette, size=(960, 540)))
 
     def run(self, number: int) -> LabRun:
         """Its ``number``-th qualification."""

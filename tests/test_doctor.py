@@ -22,7 +22,7 @@ from aegis_ot.simulation import SimulatedCamera
 from aegis_ot.vision.camera import Frame
 from aegis_ot.vision.detection import load_detector
 from aegis_ot.vision.models import SHIPPED, load_model, save_model
-from aegis_ot.vision.reach import Smallest
+from aegis_ot.worldmodel.reach import Smallest
 
 from .sidecar.helpers import StubCamera, make_keyframe
 

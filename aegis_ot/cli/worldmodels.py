@@ -91,7 +91,7 @@ def show_model(
 
 
 def _describe(path: Path, model: ModelFile) -> str:
-    from ..vision.reach import limits_in, recordings_of, shortcomings, smallest_in
+    from ..worldmodel.reach import limits_in, recordings_of, shortcomings, smallest_in
 
     lines = [
         f"{path}: {model.kind}, {path.stat().st_size / 1e6:.2f} MB, made by aegis_ot "

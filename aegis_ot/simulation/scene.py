@@ -6,7 +6,6 @@ Coordinates are those of :mod:`.session`.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
 
 from ..vision.tips import TipGeometry
 from ..vocabulary import KeyframeKind
@@ -88,19 +87,15 @@ def place_tip(
     *,
     source: str = "A1",
     destination: str = "A1",
-    transit_over: Literal["source", "destination"] = "destination",
 ) -> SceneState:
     """The state of a frame from the wells concerned.
 
     ASPIRATE and DISPENSE are taken with the tip's end inside the well, the others with the tip
-    raised; source wells lie in the first labware, destinations in the second. A guarded robot
-    holds TRANSIT where it holds POST_DISPENSE, above the destination; plates that somebody
-    photographed show it over the source. Wells outside the labware's grid are put at its nearest
-    well: the scene has two blocks, the deck eleven.
+    raised, above the destination both times; source wells lie in the first labware, destinations
+    in the second. Wells outside the labware's grid are put at its nearest well: the scene has two
+    blocks, the deck eleven.
     """
-    at_source = kind is KeyframeKind.ASPIRATE or (
-        kind is KeyframeKind.TRANSIT and transit_over == "source"
-    )
+    at_source = kind is KeyframeKind.ASPIRATE
     block = parameters.labware[0 if at_source else 1]
     well = source if at_source else destination
     row, column = well_position(well)

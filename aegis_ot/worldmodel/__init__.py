@@ -2,6 +2,5 @@
 the smallest volumes that these would catch."""
 
 from .fitting import STORED, fit_model
-from .tips import FoundTips, find_tips
 
-__all__ = ["STORED", "FoundTips", "find_tips", "fit_model"]
+__all__ = ["STORED", "fit_model"]

@@ -16,12 +16,12 @@ import numpy as np
 
 from ..progress import Progress
 from ..vision.column import learn_tip
-from ..vision.reach import Smallest
 from ..vision.scorers.looks import looks
 from ..vision.types import FREE, Scorer, TrajectorySample
 from .cascade import run_cascade
 from .leave_one_out import HeldOut, ScoredWell, hold_out
 from .planting import with_retained
+from .reach import Smallest
 
 SHARES = (0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.65, 0.8, 1.0)
 """Shares of the commanded volume that are planted."""

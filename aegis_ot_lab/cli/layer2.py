@@ -85,7 +85,7 @@ def layer2(
     answer (export:FILE, which gives none, is no fault).
     """
     from aegis_ot.cli.progress import StageBar
-    from aegis_ot.worldmodel.tips import find_tips
+    from aegis_ot_lab.found_tips import find_tips
 
     from ..evaluation.layer2 import LEAVE_OUT, PROTOCOLS, THRESHOLDS, evaluate_layer2
     from ..scorers import SCORERS

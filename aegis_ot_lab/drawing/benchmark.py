@@ -15,6 +15,8 @@ from aegis_ot.simulation.session import SessionParameters
 from aegis_ot.vision.tips import tip_for
 from aegis_ot.vocabulary import KeyframeKind
 
+from .random_sessions import random_session
+
 
 @dataclass(frozen=True)
 class FrameCost:
@@ -45,7 +47,7 @@ def measure(frames: int = 40) -> list[FrameCost]:
             _case("640x480, eight tips", SessionParameters.corner(102), 8, frames),
             _case(
                 "960x540, one tip",
-                SessionParameters.draw(np.random.default_rng(103), size=(960, 540)),
+                random_session(np.random.default_rng(103), size=(960, 540)),
                 1,
                 frames,
             ),

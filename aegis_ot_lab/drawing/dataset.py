@@ -28,6 +28,7 @@ from aegis_ot.vocabulary import KeyframeKind
 from aegis_ot.vocabulary.pipette_names import channels_of
 
 from .plans import PlannedWell, contents_of, normal_plan, paper_plan
+from .random_sessions import random_session
 
 
 @dataclass(frozen=True)
@@ -81,7 +82,7 @@ def write_dataset(
     tip = tip_for(pipette)
     short = in_data_sets(pipette)
     sessions = [
-        parameters or SessionParameters.draw(rng, pipette=pipette, size=size) for _ in range(plates)
+        parameters or random_session(rng, pipette=pipette, size=size) for _ in range(plates)
     ]
     volumes = [typical_volume(rng, tip, of_any_tip=normals_per_plate > 0) for _ in range(plates)]
     drawn = [

@@ -19,6 +19,7 @@ from aegis_ot.vocabulary import KeyframeKind
 from aegis_ot.vocabulary.pipette_names import channels_of
 
 from .plans import FAILURES, contents_of
+from .random_sessions import random_session
 
 _PIPETTES = ("p1000", "p300", "p20", "p10", "flex_1channel_50", "flex_1channel_1000")
 _SIZES = ((640, 480), (640, 480), (960, 540), (1280, 720))
@@ -58,7 +59,7 @@ def random_frames(
             session = fixed(int(rng.integers(2**31)))
         else:
             size = sizes[int(rng.integers(len(sizes)))]
-            session = SessionParameters.draw(rng, pipette=pipette, size=size)
+            session = random_session(rng, pipette=pipette, size=size)
         tip = _any_tip(rng, pipette)
         for _ in range(frames_per_session):
             state = _random_state(rng, session, tip, without_tip, channels)
@@ -94,7 +95,6 @@ def _random_state(
     wells = [f"{'ABCDEFGH'[rng.integers(8)]}{rng.integers(1, 13)}" for _ in range(2)]
     state = place_tip(
         session, kind, tip, (content,) * channels, dye, source=wells[0], destination=wells[1],
-        transit_over="source" if rng.random() < 0.5 else "destination",
     )  # fmt: skip
     x, y, z = state.orifice
     lift = 0.0 if state.rim_z is not None else float(rng.uniform(-20.0, 15.0))

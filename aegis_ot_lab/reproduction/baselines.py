@@ -11,7 +11,7 @@ from aegis_ot.llm import Backend
 from aegis_ot.vision.gates import GateInput
 from aegis_ot.vocabulary import Outcome as Word
 from aegis_ot.vocabulary import Route
-from aegis_ot.worldmodel.tips import FoundTips
+from aegis_ot_lab.found_tips import FoundTips
 
 from ..evaluation.layer2 import Layer2Result
 from ..evaluation.layer2.metrics import f1, precision, recall

@@ -19,7 +19,7 @@ from aegis_ot.simulation import SessionParameters
 from aegis_ot.vision.dataset import Dataset, load_dataset
 from aegis_ot.vision.dataset_checks import in_data_sets
 from aegis_ot.worldmodel.fitting import fit_model
-from aegis_ot.worldmodel.tips import FoundTips, find_tips
+from aegis_ot_lab.found_tips import FoundTips, find_tips
 
 from ..drawing import write_dataset
 

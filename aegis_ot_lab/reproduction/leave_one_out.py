@@ -11,7 +11,7 @@ import numpy as np
 
 from aegis_ot.vision.dataset import Dataset
 from aegis_ot.vision.scorers.pca import PcaScorer
-from aegis_ot.worldmodel.tips import FoundTips
+from aegis_ot_lab.found_tips import FoundTips
 
 from ..evaluation.layer2 import Layer2Result, draw_figures, evaluate_layer2
 from ..evaluation.layer2.studies import sample_complexity

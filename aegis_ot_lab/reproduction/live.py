@@ -7,8 +7,8 @@ from itertools import product
 from typing import Any
 
 from aegis_ot.adapters.opentrons.rehearsal import Script
-from aegis_ot.vision.reach import wilson
 from aegis_ot.vocabulary import Outcome as Said
+from aegis_ot.worldmodel.reach import wilson
 
 from .context import Context
 from .experiment import NOT_RUN, Experiment, ExperimentOutcome, Table, table

@@ -12,7 +12,7 @@ SOURCES = {
         *("axes", "examples", "fitting", "frame_pool", "network", "photometry", "pipettes"),
         *("recorded", "rooms", "scenes", "simulated", "strokes", "transplant"),
     ),
-    "aegis_ot_lab/drawing": ("plans", "random_frames"),
+    "aegis_ot_lab/drawing": ("plans", "random_frames", "random_sessions"),
     "aegis_ot/simulation": (
         *("backdrop", "dyes", "exposure", "optics", "reflections"),
         *("render", "scene", "session", "shading", "truth"),

@@ -13,6 +13,7 @@ import numpy as np
 
 from aegis_ot.simulation.session import SessionParameters
 from aegis_ot.vision.tips import tip_for
+from aegis_ot_lab.drawing.random_sessions import random_session
 
 from .stage import Lamps
 
@@ -168,7 +169,7 @@ def draw_session(
     def u(limits: Range) -> float:
         return float(rng.uniform(*limits))
 
-    base = SessionParameters.draw(rng, pipette=pipette, size=kind.size)
+    base = random_session(rng, pipette=pipette, size=kind.size)
     length = tip_for(pipette).length_mm
     distance, look = u(kind.distance_mm), (u((-8, 8)), u((-8, 8)), 0.55 * length + u((20, 34)))
     around, down = np.radians(u(kind.azimuth_deg)), np.radians(u(kind.elevation_deg))

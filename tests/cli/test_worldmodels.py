@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from aegis_ot.vision.models import SHIPPED, load_model, save_model
-from aegis_ot.vision.reach import Smallest
+from aegis_ot.worldmodel.reach import Smallest
 
 from .commands import Command
 

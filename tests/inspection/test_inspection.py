@@ -17,7 +17,7 @@ from aegis_ot.vision.scorers.ensemble import EnsembleScorer
 from aegis_ot.vocabulary import KeyframeKind
 from aegis_ot.worldmodel.cascade import run_cascade
 from aegis_ot.worldmodel.leave_one_out import score_with
-from aegis_ot.worldmodel.tips import find_tips
+from aegis_ot_lab.found_tips import find_tips
 from aegis_ot_lab.inspection import inspect_dataset
 from tests.sidecar.browser import CHROMIUM, chromium
 

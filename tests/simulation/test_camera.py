@@ -15,6 +15,7 @@ from aegis_ot.simulation.exposure import decode
 from aegis_ot.simulation.render import render_jpeg
 from aegis_ot.vision.camera import Camera
 from aegis_ot.vocabulary import Keyframe
+from aegis_ot_lab.drawing.random_sessions import random_session
 
 from .test_faults import run_of
 
@@ -179,7 +180,7 @@ def test_odd_wells_and_missing_wells_do_not_fail() -> None:
 
 
 def test_own_parameters_are_used() -> None:
-    session = SessionParameters.draw(np.random.default_rng(2), pipette="p300", size=(960, 540))
+    session = random_session(np.random.default_rng(2), pipette="p300", size=(960, 540))
     image = SimulatedCamera(parameters=session).frame_after(time.monotonic(), 60.0).image
     assert image.shape == (540, 960, 3)
 

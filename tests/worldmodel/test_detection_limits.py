@@ -8,12 +8,12 @@ from types import SimpleNamespace
 
 import pytest
 
-from aegis_ot.vision.reach import Smallest
 from aegis_ot.vision.scorers import make_scorer
 from aegis_ot.vision.types import TrajectorySample
 from aegis_ot.worldmodel import detection_limits as smallest
 from aegis_ot.worldmodel.detection_limits import LEAD, MOST, OF_A_PLATE, SHARES, smallest_caught
 from aegis_ot.worldmodel.leave_one_out import HeldOut
+from aegis_ot.worldmodel.reach import Smallest
 from tests.worldmodel.test_planting import VOLUME, normal
 
 

@@ -9,7 +9,7 @@ import pytest
 from aegis_ot.errors import DatasetError
 from aegis_ot.vision.dataset import load_dataset
 from aegis_ot.vision.dataset_writer import DatasetWriter
-from aegis_ot.worldmodel import find_tips
+from aegis_ot_lab.found_tips import find_tips
 from tests.vision.samples import sample
 
 

@@ -39,15 +39,8 @@ def shift_between(
     """How far a tip hangs in a second frame from where it hung in the first, px: a robot comes
     back to a place within a tenth of a millimetre, and a wall's edge is no wider.
 
-    Args:
-        image: The first frame.
-        again: The second.
-        collar: Upper end of the tip in the first, px.
-        orifice: Its lower end.
-        shape: Its outline.
-
-    Returns:
-        To the right and down; ``None`` where the frames do not show one thing.
+    ``collar``, ``orifice``: the tip's ends in the first frame. Gives what it moved to the right and
+    down; ``None`` where the frames do not show one thing.
     """
     part = shape.nozzle_end + _BELOW
     down = (orifice - collar) * part
@@ -82,13 +75,8 @@ def shift_between(
 
 
 def at_one_place(tip: Axis, again: Axis, held: bool | None = None) -> bool:
-    """Whether two frames show a tip at one place, so that what stands behind it is the same.
-
-    Args:
-        tip: Its ends in the one frame, px.
-        again: The same in the other.
-        held: What the robot says of it, see :func:`held_still`.
-    """
+    """Whether two frames show a tip at one place, so that what stands behind it is the same; by
+    its ends in both, px, and by the robot's word (``held``, see :func:`held_still`)."""
     if held is False:
         return False
     ends = np.array((tip, again), dtype=np.float64)

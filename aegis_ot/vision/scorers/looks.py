@@ -64,10 +64,8 @@ def look_again(
     tip: TipGeometry,
     before: TipLook,
 ) -> TipLook:
-    """The tip in POST_DISPENSE by TRANSIT's axis: for where it hangs at one place in both.
-
-    Each frame's own axis is off by a pixel or more of its own, along the tip by far more where a
-    column was left in it, and what changed is then looked for in rows that are not the same.
+    """The tip in POST_DISPENSE by TRANSIT's axis, where it hangs at one place in both: each frame's
+    own is off by a pixel or more, along the tip by far more where a column was left in it.
     """
     full, kind = FREE
     again = _measured(frames, (kind, detection, tip.name, before.collar, before.orifice))

@@ -14,7 +14,7 @@ from aegis_ot.vision.types import Detector, Scorer
 from aegis_ot.vocabulary import Gate
 from aegis_ot.worldmodel.cascade import run_cascade
 from aegis_ot.worldmodel.leave_one_out import hold_out
-from aegis_ot.worldmodel.tips import FoundTips, find_tips
+from aegis_ot_lab.found_tips import FoundTips, find_tips
 
 from ...scorers import BASELINES, make_scorer
 from .answers import CountedGate, ModelAnswers

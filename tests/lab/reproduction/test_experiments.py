@@ -8,7 +8,7 @@ import pytest
 
 from aegis_ot.llm import ScriptedBackend
 from aegis_ot.vision.models import SHIPPED
-from aegis_ot.vision.reach import wilson
+from aegis_ot.worldmodel.reach import wilson
 from aegis_ot_lab.drawing import write_dataset
 from aegis_ot_lab.reproduction import Context, ReproductionOptions, calibration, layer1, live, rules
 from aegis_ot_lab.reproduction import components as components_

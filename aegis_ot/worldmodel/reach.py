@@ -7,8 +7,8 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass, fields
 from typing import Any
 
+from ..vision.models import ModelFile
 from ..vocabulary import counted
-from .models import ModelFile
 
 ENOUGH = 20
 """Normal wells from which a model can say that a well looks as one normal in twenty does."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from aegis_ot.vision.models import ModelFile
-from aegis_ot.vision.reach import Smallest, normals_in, shortcomings, smallest_in
+from aegis_ot.worldmodel.reach import Smallest, normals_in, shortcomings, smallest_in
 
 SEEN = Smallest("p20", "red", 10.0, 2.5, {"0.25": 1.0}, 6, 2.4, 3.5, 0, 8)
 
