@@ -114,13 +114,16 @@ def test_hidden_tips_are_neither_passed_nor_failed() -> None:
     ("faults", "taken_for"),
     [
         (["no_dispense@H2"], Outcome.PASS),
-        ([f"no_dispense@{row}2" for row in "ABCDEFG"], Outcome.FAIL),
+        ([f"no_dispense@{row}2" for row in "ABCDEFG"], Outcome.PASS),
     ],
 )
-def test_the_nearest_of_hidden_tips_would_be_judged_by_what_those_behind_hold(
+def test_the_nearest_of_hidden_tips_passes_whatever_it_holds(
     faults: list[str], taken_for: Outcome
 ) -> None:
-    """Why it is left unobserved too: where its own place is known, H2 is still judged wrongly."""
+    """Why it is left unobserved too: where its own place is known, H2 still passes with its fault.
+
+    What those behind it hold does not fail it: both frames show them at one place.
+    """
     found = set()
     for seed in (3, 4, 11):
         camera = SimulatedCamera(seed, faults, from_the_front_of(9.0))
