@@ -103,8 +103,8 @@ def test_which_sign_spoke_stands_with_a_runs_well_where_and_in_what_unit(store: 
     assert "surprises in nats" in page
     *_, last = page.split("<article")
     sign, nats = failed.signs[0]
-    assert (sign.name, nats > 3) == ("retained", True)
-    told = f"{nats:.1f} nats: a column that is left after the dispense (dispense, post-dispense)"
+    assert (sign.name, nats > 3) == ("undelivered", True)
+    told = f"{nats:.1f} nats: a tip that the dispense did not change (post-dispense)"
     assert told in last.split("<li>")[1]
     assert f"up to {failed.band[1]:.3g} passes silently" in last
 
