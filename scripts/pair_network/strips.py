@@ -26,6 +26,7 @@ from aegis_ot.vision.tips import TipGeometry, tip_for
 from aegis_ot.vision.types import FREE, Image
 from aegis_ot_lab.drawing.dataset import typical_volume
 from aegis_ot_lab.drawing.plans import FAILURES, contents_of
+from aegis_ot_lab.drawing.random_sessions import random_session
 from scripts.path_traced.kinds import any_kind, draw_session
 
 ROWS, COLUMNS = 112, 24
@@ -108,7 +109,7 @@ def draw_pairs(seed: int, plates: int, wells: int = 10) -> Iterator[Pair]:
         pipette = kind.pipettes[0]
         drawn = rng.random() < 0.3
         session = (
-            SessionParameters.draw(rng, pipette=pipette, size=kind.size)
+            random_session(rng, pipette=pipette, size=kind.size)
             if drawn
             else draw_session(kind, pipette, rng)[0]
         )
