@@ -237,6 +237,8 @@ class MeasuredColumns:
             if abs(found - top) < reach and wet.power > 4 and wet.bracketed(found, NEAR):
                 self._scale.note(tip, found, volume)
             return
+        if wet.paired:
+            self._usuals[True].note_pair(wet.misfit)
         heights = LEFT * (1.0 - self._scale.place(tip, self._fullest))
         told = [wet.mean(1.0 - height, end) for height in heights]
         if any(weight > 0 for _, weight in told):

@@ -52,6 +52,10 @@ _MISFIT_SHARE = 0.1
 the run's normal ones usually show and by this share of what the liquid changes, was laid beside
 the tip, or something else is before it."""
 
+_PAIR_MISFIT = 2.5
+"""The same multiple of two frames at one place. On simulated frames of development seeds normal
+pairs show 1.8 times the usual at most, columns left 1.3; pairs laid beside the tip 3.3 to 3.6."""
+
 _EXPOSURE = 1.4
 """A frame this many times brighter or darker than the run's others teaches nothing, and is read
 only if the liquid shows plainly."""
@@ -80,6 +84,10 @@ class Usual:
         """Mean wetness of a column that was full (``None``: not told), and how its rows fit."""
         if share is not None:
             _keep(self._wet, share - 1.0)
+        _keep(self._misfits, misfit)
+
+    def note_pair(self, misfit: float) -> None:
+        """How the rows of a normal well's two frames at one place fit."""
         _keep(self._misfits, misfit)
 
     def note_empty(self, shares: Sequence[float]) -> None:
@@ -117,6 +125,8 @@ class Usual:
 
     def fits(self, wet: Wetness) -> bool:
         """Whether a frame's rows look like tips, empty or filled, of this run."""
+        if wet.paired and len(self._misfits) >= ENOUGH:
+            return wet.misfit <= _PAIR_MISFIT * float(np.median(self._misfits))
         usual = _MISFIT_FACTOR * float(np.median(self._misfits or [0.0]))
         return wet.misfit <= max(_MISFIT_LEAST, usual, _MISFIT_SHARE * wet.power)
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from aegis_ot.vision.column import Wetness
@@ -71,3 +73,14 @@ def test_a_frame_that_looks_like_no_tip_of_this_run_is_not_read() -> None:
     assert usual.fits(plain)
     usual.note_full(1.0, 5.0)
     assert usual.fits(odd)
+
+
+def test_a_pair_that_was_laid_beside_the_tip_is_not_read() -> None:
+    usual = Usual()
+    pair = replace(wetness(10.0), misfit=0.85, paired=True)
+    assert usual.fits(pair), "the run has not shown yet how its pairs fit"
+    for _ in range(ENOUGH):
+        usual.note_pair(0.25)
+    assert not usual.fits(pair)
+    assert usual.fits(replace(pair, misfit=0.45))
+    assert usual.fits(replace(pair, paired=False)), "a frame read alone strays farther"
