@@ -1,8 +1,4 @@
-"""Layer 1 around a run: the protocol is rehearsed and judged, and a bad one does not begin.
-
-On a robot that happens before anything moves. In analysis and simulation the run itself is the
-rehearsal, and is judged at its end.
-"""
+"""Layer 1 around a run: on a robot before anything moves, in a simulation at the run's end."""
 
 from __future__ import annotations
 

@@ -24,9 +24,8 @@ class RobotConnection:
         token: Of a robot whose access is controlled; the setting ``robot_token`` if ``None``. With
             it goes the setting ``robot_reason``.
 
-    Every method raises :class:`RobotUnreachable` where no answer comes in time,
-    :class:`RobotRefused` where the server refuses, :class:`RobotError` where its answer makes no
-    sense.
+    Every method raises :class:`RobotUnreachable` (no answer in time), :class:`RobotRefused` (by
+    the server) or :class:`RobotError` (its answer makes no sense).
     """
 
     def __init__(
