@@ -30,8 +30,8 @@ full: matrix test
 
 # The tests of numbers once more as an older processor counts: its last digits are others.
 NUMERIC := $(addprefix tests/vision/,column test_calibration.py \
-	test_cascade.py scorers/test_pca.py test_reach.py test_signs.py test_tips.py test_tip_scale.py test_usual.py) \
-	tests/audit/test_patterns.py
+	test_cascade.py scorers/test_pca.py test_signs.py test_tips.py test_tip_scale.py test_usual.py) \
+	tests/audit/test_patterns.py tests/worldmodel/test_reach.py
 FEATURES := import numpy.core as core; print(*core._multiarray_umath.__cpu_dispatch__)
 numeric: $(STAMP)
 	NPY_DISABLE_CPU_FEATURES="$$($(BIN)/python -W ignore -c '$(FEATURES)')" \
