@@ -42,18 +42,18 @@ def plan_of(pipette: str) -> QualificationPlan:
 def commands_of(text: str, around: Any = lambda run: run) -> list[Any]:
     """What the engine was told to do."""
     kept: list[Any] = []
-
-    def wrap_run(run: Any) -> Any:
-        run = around(run)
-
-        def watched(protocol: Any) -> None:
-            run(protocol)
-            kept.extend(protocol._core._engine_client.state.commands.get_all())
-
-        return watched
-
-    play(Script(text, "qualification.py"), wrap_run)
+    play(Script(text, "qualification.py"), lambda run: keeping(around(run), kept))
     return kept
+
+
+def keeping(run: Any, kept: list[Any]) -> Any:
+    """A run that adds what the engine was told to do to ``kept``."""
+
+    def watched(protocol: Any) -> None:
+        run(protocol)
+        kept.extend(protocol._core._engine_client.state.commands.get_all())
+
+    return watched
 
 
 def by_tip(commands: list[Any]) -> list[list[Any]]:
@@ -198,16 +198,7 @@ def test_nothing_is_planted_in_a_dry_run(written: str, monkeypatch: pytest.Monke
     kept: list[Any] = []
 
     def play_and_keep(script: Script, wrap_run: Any) -> None:
-        def kept_too(run: Any) -> Any:
-            guarded = wrap_run(run)
-
-            def watched(protocol: Any) -> None:
-                guarded(protocol)
-                kept.extend(protocol._core._engine_client.state.commands.get_all())
-
-            return watched
-
-        play(script, kept_too)
+        play(script, lambda run: keeping(wrap_run(run), kept))
 
     monkeypatch.setattr("aegis_ot.dryrun.runner.play", play_and_keep)
     script = Script(AS_WRITTEN[written](protocol_text(plan)), "qualification.py")

@@ -104,7 +104,8 @@ class RuleContext:
         found: dict[Well, dict[Well, int]] = {}
         for one in self.trace.transfers:
             into = found.setdefault(one.well, {})
-            for origin in (*one.liquid, *one.source.residue):  # an eluate is of its sample
+            since = one.source.residue.items()  # an eluate is of its sample
+            for origin in (*one.liquid, *(w for w, index in since if index < one.visit.index)):
                 into.setdefault(origin, one.visit.index)
         return found
 

@@ -41,7 +41,7 @@ class Well:
         known: Whether ``volume`` is exact.
         declared: Volume declared for it before the run, µL.
         contents: µL by the well in which that liquid stood before the run (itself included).
-        residue: Whose liquid was drawn off to the last: a tip meets it in the well filled anew.
+        residue: Whose liquid was drawn off to the last, and by which step first: a tip meets it.
         liquids: Names of liquids loaded into it.
         visits: Everything tips did here, in order.
         received: What came into it from other wells, in order.
@@ -66,7 +66,7 @@ class Well:
     known: bool = True
     declared: float | None = None
     contents: dict[Well, float] = field(default_factory=dict)
-    residue: dict[Well, None] = field(default_factory=dict)
+    residue: dict[Well, int] = field(default_factory=dict)
     liquids: list[str] = field(default_factory=list)
     visits: list[Visit] = field(default_factory=list)
     received: list[Transfer] = field(default_factory=list)
@@ -142,7 +142,7 @@ class Well:
         if self.known and self.volume <= EMPTY_UL:
             self.volume = 0.0
             self.last = self.liquid()
-            self.residue.update(dict.fromkeys(self.contents))
+            self.residue = dict.fromkeys(self.contents, self.visits[-1].index) | self.residue
             self.contents.clear()
         elif len(self.contents) > 1 or self.known:
             total = sum(self.contents.values())

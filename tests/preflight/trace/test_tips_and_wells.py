@@ -12,6 +12,7 @@ from aegis_ot.preflight.trace.plates import Plates
 from aegis_ot.preflight.trace.tips import TipBox
 from aegis_ot.vocabulary import WellRef
 from tests.support.bench import Bench, carried, plate, well
+from tests.support.cases import case_of
 
 
 def test_a_dispense_into_an_empty_well_adds_nothing_to_the_tip() -> None:
@@ -357,3 +358,23 @@ def test_what_was_drawn_off_to_the_last_is_met_again_once_the_well_is_filled_ane
     trace = bench.trace()
     assert carried(trace, 1) == ["source:A1"], "nothing is met in a well that is empty"
     assert carried(trace, 2) == ["source:A1", "plate:A1"]
+
+
+def test_a_well_is_not_meant_to_hold_what_its_source_was_given_later() -> None:
+    bench = Bench()
+    bench.load("source:A1", 50)
+    for source, into, volume in (
+        ("source:A1", "plate:A1", 20),
+        ("source:B1", "source:A1", 20),
+        ("source:A1", "plate:B1", 50),
+        ("source:C1", "source:A1", 20),
+        ("source:A1", "plate:C1", 10),
+    ):
+        bench.pick()
+        bench.draw(source, volume)
+        bench.give(into, volume)
+        bench.drop()
+    case = case_of(bench.trace(), "generic", {})
+    meant = {w.ref.address: {one.ref.address for one in held} for w, held in case.meant.items()}
+    assert meant["plate:A1"] == {"source:A1"}
+    assert meant["plate:C1"] == {"source:A1", "source:B1", "source:C1"}
