@@ -12,28 +12,17 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from .nodes import Nodes
 
+_CHANCE, _CLOCK, _NETWORK = "chance (random)", "the clock", "the network"
+_ENVIRONMENT = "the environment (os.environ)"
 _MODULES: Mapping[str, str] = {
-    "random": "chance (random)",
-    "secrets": "chance (random)",
-    "os.urandom": "chance (random)",
-    "uuid": "chance (random)",
-    "numpy.random": "chance (random)",
-    "time": "the clock",
-    "datetime": "the clock",
-    "requests": "the network",
-    "urllib": "the network",
-    "socket": "the network",
-    "http.client": "the network",
-    "os.environ": "the environment (os.environ)",
-    "os.getenv": "the environment (os.environ)",
+    **dict.fromkeys(("random", "secrets", "os.urandom", "uuid", "numpy.random"), _CHANCE),
+    **dict.fromkeys(("time", "datetime"), _CLOCK),
+    **dict.fromkeys(("requests", "urllib", "socket", "http.client"), _NETWORK),
+    **dict.fromkeys(("os.environ", "os.getenv"), _ENVIRONMENT),
 }
+_FILE = ("open", "read_text", "read_bytes", "read_csv", "isfile", "exists")
 _CALLS: Mapping[str, str] = {
-    "open": "a file",
-    "read_text": "a file",
-    "read_bytes": "a file",
-    "read_csv": "a file",
-    "isfile": "a file",
-    "exists": "a file",
+    **dict.fromkeys(_FILE, "a file"),
     "input": "what somebody types",
     "is_simulating": "whether it is a simulation (is_simulating)",
 }
@@ -50,9 +39,18 @@ _MOVES = frozenset(
 _CHANGES = frozenset({"append", "extend", "insert", "pop", "remove", "reverse", "sort", "update"})
 """Methods that change a list or dict in place."""
 
+_BINDINGS: Sequence[tuple[type[ast.AST], str, str]] = (
+    (ast.Assign, "targets", "value"),
+    (ast.AugAssign, "target", "value"),
+    (ast.NamedExpr, "target", "value"),
+    (ast.For, "target", "iter"),
+    (ast.comprehension, "target", "iter"),
+    (ast.withitem, "optional_vars", "context_expr"),
+)
+"""What gives names their values: the kind, its field for the names, and that for the value."""
+
 _SEEDED = ("random.Random", "numpy.random.default_rng", "numpy.random.RandomState")
 _LOADS = ("load_labware", "load_module", "load_adapter", "load_instrument", "define_liquid")
-_MOST_ROUNDS = 10
 
 
 def chances(text: str, nodes: Nodes) -> dict[str, int]:
@@ -71,12 +69,11 @@ class _Chances:
         self._bindings = [pair for pair in self._bound() if pair[0]]
 
     def found(self) -> dict[str, int]:
-        for _ in range(_MOST_ROUNDS):
+        before = -1
+        while before < len(self._names):
             before = len(self._names)
             for targets, value in self._bindings:
                 self._name(targets, value)
-            if len(self._names) == before:
-                break
         lines: dict[str, int] = {}
         for source, line in self._reached():
             lines[source] = min(line, lines.get(source, line))
@@ -85,20 +82,14 @@ class _Chances:
     def _bound(self) -> Iterator[tuple[Sequence[ast.expr], ast.expr]]:
         """What is given a value, with the expression that this comes from."""
         of = self._nodes.of
-        for assigned in of(ast.Assign):
-            yield assigned.targets, assigned.value
-        changes: list[ast.AugAssign | ast.NamedExpr] = [*of(ast.AugAssign), *of(ast.NamedExpr)]
-        for changed in changes:
-            yield [changed.target], changed.value
-        loops: list[ast.For | ast.comprehension] = [*of(ast.For), *of(ast.comprehension)]
-        for loop in loops:
-            yield [loop.target], loop.iter
-        for item in (one for block in of(ast.With) for one in block.items if one.optional_vars):
-            yield [*filter(None, [item.optional_vars])], item.context_expr
+        for kind, into, out_of in _BINDINGS:
+            for node in of(kind):
+                bound = getattr(node, into)
+                yield bound if isinstance(bound, list) else [bound], getattr(node, out_of)
         for call in of(ast.Call):
             # What is shuffled, or read into, holds it from then on.
             source = self._source_of(call)
-            if source == _MODULES["random"] or _method(call) == "shuffle":
+            if source == _CHANCE or _dotted(call.func).endswith(".shuffle"):
                 yield call.args[:1], call
             for given in (*call.args, *(word.value for word in call.keywords)):
                 yield _changed(call), given
@@ -116,7 +107,7 @@ class _Chances:
 
     def _name(self, targets: Sequence[ast.expr], value: ast.expr) -> None:
         source = self._in(value)
-        for part in (part for target in targets for part in ast.walk(target)):
+        for part in (part for target in filter(None, targets) for part in ast.walk(target)):
             if source and isinstance(part, ast.Name):
                 self._names.setdefault(part.id, source)
 
@@ -144,14 +135,11 @@ class _Chances:
         first, _, rest = name.partition(".")
         full = ".".join(filter(None, (self._imported.get(first, ""), rest)))
         last = name.rpartition(".")[2]
-        if full in _SEEDED and call.args and isinstance(call.args[0], ast.Constant):
+        seeded = full in _SEEDED and call.args and isinstance(call.args[0], ast.Constant)
+        if seeded or last in _IDLE:
             return ""
-        if not full or last in _IDLE:
-            return _CALLS.get(last, "") if last not in _IDLE else ""
-        for module, source in _MODULES.items():
-            if full == module or full.startswith(f"{module}."):
-                return source
-        return _CALLS.get(last, "")
+        fitting = (said for module, said in _MODULES.items() if f"{full}.".startswith(f"{module}."))
+        return next(fitting, _CALLS.get(last, ""))
 
 
 def _parts(value: ast.expr) -> Iterator[ast.AST]:
@@ -168,15 +156,12 @@ def _loads(part: ast.AST) -> bool:
     return isinstance(part, ast.Call) and _dotted(part.func).rpartition(".")[2].startswith(_LOADS)
 
 
-def _method(call: ast.Call) -> str:
-    return call.func.attr if isinstance(call.func, ast.Attribute) else ""
-
-
 def _changed(call: ast.Call) -> list[ast.expr]:
     """The name of the list or dict that a call changes in place."""
-    if not isinstance(call.func, ast.Attribute) or _method(call) not in _CHANGES:
-        return []
-    return [call.func.value] if isinstance(call.func.value, ast.Name) else []
+    func = call.func
+    if isinstance(func, ast.Attribute) and func.attr in _CHANGES:
+        return [func.value] if isinstance(func.value, ast.Name) else []
+    return []
 
 
 def _imports(nodes: Nodes) -> Iterator[tuple[str, str]]:
@@ -191,15 +176,9 @@ def _imports(nodes: Nodes) -> Iterator[tuple[str, str]]:
 
 def _dotted(node: ast.expr) -> str:
     """``np.random.choice`` of such an expression; of another one its last name, or ``""``."""
-    parts: list[str] = []
-    while isinstance(node, ast.Attribute):
-        parts.append(node.attr)
-        node = node.value
-    if isinstance(node, ast.Name):
-        parts.append(node.id)
-    else:
-        parts.append("")
-    return ".".join(reversed(parts))
+    if isinstance(node, ast.Attribute):
+        return f"{_dotted(node.value)}.{node.attr}"
+    return node.id if isinstance(node, ast.Name) else ""
 
 
 def _decides(statement: ast.stmt) -> bool:
