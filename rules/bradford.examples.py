@@ -72,6 +72,15 @@ p20.transfer(5, samples, sample_wells, new_tip="always")
 wells = plate.columns()[0][:6] + plate.columns()[1][:4]
 p300.transfer(150, bradford_reagent, wells, new_tip="always", mix_after=(3, 80))
 
+# BRD-1 fails: the standards begin in the blank's well, which has its buffer already
+blank_well = plate["A1"]
+buffer = tubes["D6"]
+p20.transfer(5, buffer, blank_well)
+p20.transfer(5, list(bsa.values())[1:], plate.columns()[0][:3], new_tip="always")
+p20.transfer(5, samples, sample_wells, new_tip="always")
+wells = standard_wells + sample_wells
+p300.transfer(150, bradford_reagent, wells, new_tip="always", mix_after=(3, 80))
+
 # BRD-1 fails: two standards have changed places
 p20.pick_up_tip()
 for level in (0, 500, 125, 1000):

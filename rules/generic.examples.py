@@ -17,6 +17,13 @@ p300.transfer(50, sources, destinations, new_tip="always")
 # GEN-1 passes: pooling with one tip
 p300.consolidate(50, sources, pool)
 
+# GEN-1 warns: a tip that mixed in the pool goes back into its library for the second half
+for library in sources:
+    p300.pick_up_tip()
+    for _ in range(2):
+        p300.transfer(20, library, pool, mix_after=(2, 40), new_tip="never")
+    p300.drop_tip()
+
 # GEN-1 passes: each source into two wells, with a tip of its own
 for source, row in zip(sources, plate.rows()):
     p300.distribute(40, source, row[:2])

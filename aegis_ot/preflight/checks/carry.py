@@ -20,6 +20,7 @@ from .rule_context import RuleContext, carried_liquids
 _IN_ALL = "All that is still made of it is given that liquid too: the tip brought nothing new."
 _RINSED = "The tip was rinsed in between: what is left on it is a trace."
 _UNSAID = "Nothing in the protocol says what these wells held."
+_KEPT = "All that the run makes of it is given that liquid too; what is left of it is not clean."
 _ONE_NAME = "All that it reaches is loaded as '{}': if that is one liquid, nothing new came to it."
 
 
@@ -150,7 +151,8 @@ class Carry(Check):
         elif case.is_given(well, origin):
             return "ever"
         else:
-            is_in_place = self.pooled and _is_pooled(case, visit, origin)
+            is_pooled = self.pooled and _is_pooled(case, visit, origin)
+            is_in_place = is_pooled and not _goes_back(case, visit, met)
         return "now" if is_in_place else ""
 
     def _is_in_stock(self, case: RuleContext, visit: Visit, origin: Well, met: Met) -> bool:
@@ -302,6 +304,8 @@ class Carry(Check):
         loaded = [one for one in others if one.liquids]
         if loaded and case.go_by_one_name(origin, loaded):
             return _ONE_NAME.format(origin.liquids[0])
+        if not (self.stock or self.via_destination) and _is_pooled(case, visit, origin):
+            return _KEPT
         if self.via_destination == "not":
             told = not self.shared or case.is_said_to_hold(origin)
             return "" if told else _UNSAID
@@ -379,6 +383,17 @@ def _is_pooled(case: RuleContext, visit: Visit, origin: Well) -> bool:
         if visit.kind is OperationKind.ASPIRATE or dest.ref not in case.waste
     ]
     return any(given) if clean else bool(given) and all(given)
+
+
+def _goes_back(case: RuleContext, visit: Visit, met: Met) -> bool:
+    """Whether a tip that drew from what was made, to mix it, goes back into a source of which
+    something is left.
+    """
+    into, draws = visit.well, OperationKind.ASPIRATE
+    if visit.kind is not draws or into.empty or met.well not in case.destinations.get(into, ()):
+        return False
+    earlier = (one for one in visit.tip.visits if one.index < visit.index)
+    return any(one.kind is draws and one.well is met.well for one in earlier)
 
 
 def _why_unnamed(case: RuleContext, visit: Visit, origin: Well, met: Met) -> str:

@@ -241,16 +241,21 @@ class NeverReceives(Check):
     Attributes:
         wells: Roles of the wells.
         liquid: Roles of the liquid.
+        own: Whether only wells are judged that are given a liquid of their own as well: the first
+            of a row of standards may be the blank.
     """
 
     lasting = True
 
     wells: tuple[str, ...] = role_names(required=True)
     liquid: tuple[str, ...] = role_names(required=True)
+    own: bool = False
 
     def find(self, case: RuleContext) -> Iterator[Result]:
         for well in case.wells(self.wells):
             seen: set[Well] = set()
+            if self.own and not any(self._is_own(case, one) for one in case.meant.get(well, ())):
+                continue
             for one in well.received:
                 for origin, share in one.liquid.items():
                     if origin in seen or one.volume * share <= EMPTY_UL:
@@ -273,6 +278,11 @@ class NeverReceives(Check):
                             )
                         else:
                             yield _given(case, one, origin)
+
+    def _is_own(self, case: RuleContext, origin: Well) -> bool:
+        """Whether a liquid is no other well's: the blank's buffer."""
+        allowed = case.has(origin, self.wells) or not case.has(origin, self.liquid)
+        return allowed and all(case.has(w, self.wells) for w in case.made_of.get(origin, ()))
 
     def _is_named_loosely(self, case: RuleContext, origin: Well) -> bool:
         """Whether a loop or a rack names one that only such wells get: their water, the dose 0.

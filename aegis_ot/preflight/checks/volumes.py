@@ -41,7 +41,8 @@ class VolumeBookkeeping(Check):
         by_hand = {
             one.visit.well.ref.labware
             for one in case.trace.imbalances
-            if not one.overfilled and _is_far_short(one.visit.well)
+            if not (one.overfilled or _is_aliquot(case, one.visit.well))
+            and _is_far_short(one.visit.well)
         }
         short = _all_short(case)
         found: dict[tuple[Well, bool], list[Imbalance]] = {}
@@ -61,7 +62,8 @@ class VolumeBookkeeping(Check):
                     "declared for it (load_liquid): that may be what it will hold"
                 )
                 continue
-            if not one.overfilled and well.declared is None:
+            by_run = not one.visit.mixing and _is_aliquot(case, well)
+            if not (one.overfilled or by_run) and well.declared is None:
                 if (
                     well.ref in case.unsure
                     or well.ref.labware in by_hand
@@ -105,6 +107,22 @@ def _all_short(case: RuleContext) -> set[str]:
             drawn.setdefault(visit.well.ref.labware, set()).add(visit.well)
     short = {one.visit.well for one in case.trace.imbalances if not one.overfilled}
     return {key for key, wells in drawn.items() if len(wells) >= _FEWEST_ALIKE and wells <= short}
+
+
+def _is_aliquot(case: RuleContext, well: Well) -> bool:
+    """Whether the run puts one liquid into a well, and hands out more from there, by two draws or
+    more: then it held nothing before, whatever it is called. Where the last column of samples is
+    not full, one of the draws by eight channels is for nothing; and a draw of more than the run
+    puts there, a mix's too, says that it held something.
+    """
+    if well.generation or len({one.source for one in well.received}) != 1:
+        return False
+    draws = [one for one in well.visits if one.kind is OperationKind.ASPIRATE]
+    if well.visits[0] in draws or len(case.made_of.get(well, ())) < _FEWEST_ALIKE:
+        return False
+    given, most = sum(one.volume for one in well.received), max(one.volume for one in draws)
+    drawn = sum(one.volume for one in draws if not one.mixing)
+    return most <= given <= drawn - 2 * most
 
 
 def _is_far_short(well: Well) -> bool:
