@@ -1,4 +1,4 @@
-"""The check that one liquid is gone from a well before the next one comes."""
+"""Checks on what is drawn off: it is gone before the next liquid comes, and it stays gone."""
 
 from __future__ import annotations
 
@@ -81,6 +81,27 @@ class DrawnOffBefore(Check):
                 if volume > EMPTY_UL:
                     given, left = visit, left + volume
         return None
+
+
+@dataclass(frozen=True)
+class WasteStays(Check):
+    """What several wells were emptied into, under the name of waste, goes into no other well."""
+
+    lasting = True
+
+    def find(self, case: RuleContext) -> Iterator[Result]:
+        for one in case.trace.transfers:
+            waste, into, visit = one.source, one.well, one.visit
+            if waste.ref not in case.waste or case.is_waste(into):
+                continue
+            emptied = {e.source for e in waste.received if e.visit.index < visit.index} - {into}
+            if len(emptied) > 1:
+                yield Violation(
+                    f"What is drawn from {waste.ref} {at(one.drawn)} goes into {into.ref} "
+                    f"{case.at(visit)}: {len(emptied)} other wells were emptied into that waste.",
+                    (Site(visit.line, into.ref, "given what is waste", visit.index),),
+                    (one.drawn, waste.ref),
+                )
 
 
 def _changes(case: RuleContext, source: Well) -> bool:

@@ -159,11 +159,8 @@ def _where_all_fit(step: Operation, info: LabwareInfo, name: str) -> str:
     def away(other: str) -> float:
         return math.hypot(info.wells[other].x - here.x, info.wells[other].y - here.y)
 
-    for other in sorted(info.wells, key=away):
-        under = wells_under(info, other, offsets)
-        if other != name and None not in under:
-            return other
-    return ""
+    others = (w for w in info.wells if w != name and None not in wells_under(info, w, offsets))
+    return min(others, key=away, default="")
 
 
 @dataclass(frozen=True)

@@ -125,12 +125,10 @@ def _begun(case: RuleContext, came: Sequence[Transfer], liquid: RoleSet) -> Visi
     nothing without the other.
     """
     first: dict[Well, Visit] = {}
-    for one in came:
-        for origin in one.liquid:
-            for holder in (origin, one.source):
-                if case.has(holder, liquid):
-                    first.setdefault(holder, one.visit)
-                    break
+    for one, origin in ((brought, o) for brought in came for o in brought.liquid):
+        holder = origin if case.has(origin, liquid) else one.source
+        if case.has(holder, liquid):
+            first.setdefault(holder, one.visit)
     return max(first.values(), key=lambda visit: visit.index, default=None)
 
 

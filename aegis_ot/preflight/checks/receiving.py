@@ -71,10 +71,8 @@ def _unknown_source(case: RuleContext, well: Well, served: set[WellRef]) -> Well
 
 def _last_line(case: RuleContext, well: Well) -> int | None:
     """The line that last brought something to the labware of a well that nothing ever enters."""
-    lines = [
-        one.visit.line for one in case.trace.transfers if one.well.ref.labware == well.ref.labware
-    ]
-    return lines[-1] if lines else None
+    latest, key = reversed(case.trace.transfers), well.ref.labware
+    return next((one.visit.line for one in latest if one.well.ref.labware == key), None)
 
 
 def _never_received(

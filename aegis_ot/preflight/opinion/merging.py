@@ -141,6 +141,5 @@ def _questions(
 def _further_roles(report: Report, second: Report | None) -> Iterable[RoleEvidence]:
     """The roles that wells have with what the model read, and had not."""
     known = {(item.family, item.well, item.role) for item in report.roles}
-    for item in second.roles if second else ():
-        if (item.family, item.well, item.role) not in known:
-            yield item
+    found = second.roles if second else ()
+    return (item for item in found if (item.family, item.well, item.role) not in known)

@@ -49,6 +49,7 @@ _BINDINGS: Sequence[tuple[type[ast.AST], str, str]] = (
 )
 """What gives names their values: the kind, its field for the names, and that for the value."""
 
+_BRANCHES: tuple[type[ast.If | ast.While], ...] = (ast.If, ast.While)
 _SEEDED = ("random.Random", "numpy.random.default_rng", "numpy.random.RandomState")
 _LOADS = ("load_labware", "load_module", "load_adapter", "load_instrument", "define_liquid")
 
@@ -73,7 +74,10 @@ class _Chances:
         while before < len(self._names):
             before = len(self._names)
             for targets, value in self._bindings:
-                self._name(targets, value)
+                source = self._in(value)
+                for part in (part for one in filter(None, targets) for part in ast.walk(one)):
+                    if source and isinstance(part, ast.Name):
+                        self._names.setdefault(part.id, source)
         lines: dict[str, int] = {}
         for source, line in self._reached():
             lines[source] = min(line, lines.get(source, line))
@@ -93,7 +97,7 @@ class _Chances:
                 yield call.args[:1], call
             for given in (*call.args, *(word.value for word in call.keywords)):
                 yield _changed(call), given
-        for branch in self._branches():
+        for branch in of(*_BRANCHES):
             # What is set or turned round under a condition holds what decides it.
             for part in (one for step in (*branch.body, *branch.orelse) for one in ast.walk(step)):
                 if isinstance(part, ast.Assign) and not _loads(part.value):
@@ -102,17 +106,8 @@ class _Chances:
                 elif isinstance(part, ast.Call):
                     yield _changed(part), branch.test
 
-    def _branches(self) -> list[ast.If | ast.While]:
-        return [*self._nodes.of(ast.If), *self._nodes.of(ast.While)]
-
-    def _name(self, targets: Sequence[ast.expr], value: ast.expr) -> None:
-        source = self._in(value)
-        for part in (part for target in filter(None, targets) for part in ast.walk(target)):
-            if source and isinstance(part, ast.Name):
-                self._names.setdefault(part.id, source)
-
     def _reached(self) -> Iterator[tuple[str, int]]:
-        for branch in self._branches():
+        for branch in self._nodes.of(*_BRANCHES):
             source = self._in(branch.test)
             if source and any(map(_decides, [*branch.body, *branch.orelse])):
                 yield source, branch.lineno
