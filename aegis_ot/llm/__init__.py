@@ -1,6 +1,6 @@
 """Language and vision models behind one small protocol. Workstation side.
 
-Door: :func:`make_backend` for a model by name, :func:`judge_in` for Layer 1 with it,
+Door: :func:`make_backend` for a model by name, :func:`hybrid` for Layer 1 with it,
 :class:`Opinions` for the sidecar. The gate of Layer 2 is in :mod:`.vlm`, which alone needs OpenCV.
 """
 
@@ -20,16 +20,14 @@ from .backends.recording import RecordingBackend, ReplayBackend
 from .backends.retrying import RetryPolicy
 from .backends.scripted import ScriptedBackend
 from .backends.service import RequestOptions
-from .configurations import AskingConfiguration, Judgement, judge_in, request_in
+from .hybrid import Judgement, hybrid
 from .opinions import Opinions
 from .prices import Price, PriceTable, load_prices
-from .tokens import RequestSize, estimate_tokens, request_size
 
 __all__ = [
     "MODEL_FORMS",
     "MODEL_VARIABLE",
     "AnthropicBackend",
-    "AskingConfiguration",
     "Backend",
     "ExportBackend",
     "Judgement",
@@ -45,18 +43,14 @@ __all__ = [
     "Reply",
     "Request",
     "RequestOptions",
-    "RequestSize",
     "RetryPolicy",
     "ScriptedBackend",
     "State",
     "TokenUsage",
-    "estimate_tokens",
-    "judge_in",
+    "hybrid",
     "load_prices",
     "make_backend",
     "model_from_environment",
     "project_model",
     "record_from_environment",
-    "request_in",
-    "request_size",
 ]

@@ -56,8 +56,3 @@ ANSWER_SCHEMA: dict[str, Any] = strict_object(
     ),
     summary=_TEXT,
 )
-
-BLIND_SCHEMA: dict[str, Any] = strict_object(
-    family=_TEXT, findings=ANSWER_SCHEMA["properties"]["findings"], summary=_TEXT
-)
-"""For the configurations that get neither roles nor questions."""

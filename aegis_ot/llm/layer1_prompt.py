@@ -15,7 +15,7 @@ from ..preflight.rule_set import RuleSet
 from ..preflight.rules import Family
 from ..preflight.source import source_lines
 from ..vocabulary import Dossier, one_line
-from .answer import ANSWER_SCHEMA, BLIND_SCHEMA
+from .answer import ANSWER_SCHEMA
 from .backend import Message, Passage, Request
 from .prompts_text import prompt
 
@@ -26,37 +26,16 @@ def hybrid_request(dossier: Dossier, rule_set: RuleSet) -> Request:
     """Rules, API reference, source, trace, roles, open questions."""
     extra = [brief.text for brief in dossier.rules if brief.text]
     parts = [
-        _fenced([*_source(dossier), *_trace(dossier), *_roles(dossier), *_doubts(dossier)]),
+        fenced([*source_part(dossier), *_trace(dossier), *_roles(dossier), *_doubts(dossier)]),
         "\n".join(_asked(dossier)),
     ]
     if extra:
         parts.insert(0, "Rules of this laboratory, beside those above:\n" + "\n".join(extra))
     return Request(
         PURPOSE,
-        _system("instructions", rules_text(rule_set)),
+        system_passages(prompt("instructions"), rules_text(rule_set)),
         (Message(("\n\n".join(parts),)),),
         ANSWER_SCHEMA,
-    )
-
-
-def blind_request(dossier: Dossier, rule_set: RuleSet) -> Request:
-    """Rules, API reference and source: the paper's own prompt, without the trace."""
-    return Request(
-        PURPOSE,
-        _system("blind", rules_text(rule_set)),
-        (Message((_fenced(_source(dossier)),)),),
-        BLIND_SCHEMA,
-    )
-
-
-def llm_only_request(dossier: Dossier, rule_set: RuleSet) -> Request:
-    """API reference and source; rules withheld, the families' names given."""
-    families = "Assay families: " + ", ".join(f.family for f in rule_set.assays) + "."
-    return Request(
-        PURPOSE,
-        _system("llm_only", families),
-        (Message((_fenced(_source(dossier)),)),),
-        BLIND_SCHEMA,
     )
 
 
@@ -89,20 +68,23 @@ def _roles_by_side(family: Family) -> str:
     return "Roles: " + "; ".join(f"{told}: {', '.join(names)}" for told, names in listed if names)
 
 
-def _system(task: str, rules: str) -> tuple[Passage, ...]:
+def system_passages(task: str, rules: str) -> tuple[Passage, ...]:
+    """What stands before each question: the task, the API reference, and the rules."""
     return (
-        Passage(f"{prompt(task)}\n\n{prompt('opentrons_api')}", cached=True),
+        Passage(f"{task}\n\n{prompt('opentrons_api')}", cached=True),
         Passage(rules, cached=True),
     )
 
 
-def _fenced(lines: list[str]) -> str:
+def fenced(lines: list[str]) -> str:
+    """The protocol, and what is derived from it, between its markers; see the module."""
     text = "\n".join(lines)
     mark = "protocol-" + hashlib.sha256(text.encode("utf-8", "replace")).hexdigest()[:16]
     return "\n".join([f"<{mark}>", *lines, f"</{mark}>"])
 
 
-def _source(dossier: Dossier) -> list[str]:
+def source_part(dossier: Dossier) -> list[str]:
+    """The source, each line with its number."""
     # The file's name stays out: it says nothing about the steps, and a copy of a protocol
     # should find the answer that its original got.
     lines = ["Source:"]

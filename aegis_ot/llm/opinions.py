@@ -18,7 +18,8 @@ from pathlib import Path
 from ..preflight import RuleSet, load_rules
 from ..vocabulary import Dossier, Opinion, from_json, to_json
 from .backend import Backend, State
-from .configurations import AskingConfiguration, give_opinion, request_in
+from .hybrid import give_opinion
+from .layer1_prompt import hybrid_request
 
 MOST_PENDING = 8
 """Questions asked at once; more are told to come back."""
@@ -113,8 +114,7 @@ class Opinions:
         """Where its opinion is kept; another model or another question has another place."""
         if self._folder is None or self._backend is None:
             return None
-        request = request_in(AskingConfiguration.HYBRID, dossier, self._rules())
-        asked = f"{self._backend.name} {request.hash if request else ''}"
+        asked = f"{self._backend.name} {hybrid_request(dossier, self._rules()).hash}"
         mark = hashlib.sha256(asked.encode("utf-8", "surrogatepass")).hexdigest()[:16]
         return self._folder / f"{dossier.digest}-{mark}.json"
 

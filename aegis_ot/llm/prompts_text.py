@@ -10,11 +10,7 @@ _VERSION = re.compile(r"^<!-- version (?P<version>.+?) -->\n")
 
 
 @functools.cache
-def prompt(name: str) -> str:
-    """The text of ``prompts/NAME.md`` without its version line."""
-    return _VERSION.sub("", _file(name)).strip()
-
-
-@functools.cache
-def _file(name: str) -> str:
-    return (resources.files(__package__) / "prompts" / f"{name}.md").read_text(encoding="utf-8")
+def prompt(name: str, package: str = __name__.rpartition(".")[0]) -> str:
+    """The text of ``prompts/NAME.md`` of a package, without its version line."""
+    file = resources.files(package) / "prompts" / f"{name}.md"
+    return _VERSION.sub("", file.read_text(encoding="utf-8")).strip()

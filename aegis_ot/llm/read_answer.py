@@ -13,7 +13,6 @@ from ..preflight.evidence import wells_in
 from ..preflight.evidence.deck import without_slot
 from ..preflight.evidence.well_names import WELL
 from ..preflight.judging import MODEL
-from ..preflight.source import source_lines
 from ..vocabulary import (
     Citation,
     Dossier,
@@ -41,7 +40,7 @@ _CITED_LINES = re.compile(
 
 
 def read_opinion(
-    value: Mapping[str, Any], dossier: Dossier, model: str, blind: bool = False
+    value: Mapping[str, Any], dossier: Dossier, model: str, bounds: Bounds | None = None
 ) -> Opinion:
     """Hold an answer that fits the schema to what exists: wells, lines, rules.
 
@@ -49,10 +48,9 @@ def read_opinion(
         value: The model's answer, see :mod:`.answer`.
         dossier: What it was asked about.
         model: Who answered.
-        blind: The model saw no trace, and no check stands beside it: any well on the deck and any
-            source line will do.
+        bounds: What it may name, where that is not what the trace has.
     """
-    bounds = _Bounds(dossier, blind)
+    bounds = bounds or Bounds(dossier)
     findings, left_out = _findings(value.get("findings", ()), bounds)
     asked = {question.rule for question in dossier.questions}
     answers = []
@@ -81,18 +79,27 @@ def read_opinion(
     )
 
 
-class _Bounds:
-    """Which wells, lines and rules an answer may name."""
+class Bounds:
+    """Which wells, lines and rules an answer may name.
 
-    def __init__(self, dossier: Dossier, blind: bool) -> None:
+    Args:
+        dossier: What the model was asked about.
+        wells: The wells, each with its labware's load name or key; those of the trace if left out.
+        lines: Source lines; those of the trace if left out.
+    """
+
+    def __init__(
+        self,
+        dossier: Dossier,
+        wells: Iterable[tuple[WellRef, str]] | None = None,
+        lines: Iterable[int] | None = None,
+    ) -> None:
         self._known: dict[str, dict[str, list[WellRef]]] = {}
-        named = _on_deck(dossier) if blind else ((r, r.labware) for r in dossier.wells)
-        for ref, load_name in named:
+        for ref, load_name in wells or ((well, well.labware) for well in dossier.wells):
             for name in (ref.slot, ref.label, load_name):
-                wells = self._known.setdefault(name.lower(), {})
-                wells.setdefault(ref.name, []).append(ref)
-        count = len(source_lines(dossier.source))
-        self.lines = set(range(1, count + 1)) if blind else set(dossier.lines)
+                known = self._known.setdefault(name.lower(), {})
+                known.setdefault(ref.name, []).append(ref)
+        self.lines = set(dossier.lines if lines is None else lines)
         self.severity = {brief.id: brief.severity for brief in dossier.rules}
         by_name: dict[str, set[WellRef]] = {}
         for names in self._known.values():
@@ -115,15 +122,6 @@ class _Bounds:
         return list(found)
 
 
-def _on_deck(dossier: Dossier) -> Iterable[tuple[WellRef, str]]:
-    """Every well on the deck, column by column, with its labware's load name."""
-    for item in dossier.deck:
-        for column in range(item.columns):
-            for row in range(item.rows):
-                name = f"{chr(ord('A') + row)}{column + 1}"
-                yield WellRef(item.key, name, item.label, item.slot), item.load_name
-
-
 def _violated(given: Mapping[str, Any]) -> dict[str, Any]:
     """An answer that a rule is broken as a finding, in wells and lines that it gives or cites."""
     reason = str(given["reason"])
@@ -137,7 +135,7 @@ def _violated(given: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _findings(
-    given: Sequence[Mapping[str, Any]], bounds: _Bounds
+    given: Sequence[Mapping[str, Any]], bounds: Bounds
 ) -> tuple[list[Finding], list[str]]:
     """Findings in wells and lines that exist, and what is wrong with the others."""
     findings, problems = [], []
@@ -156,7 +154,7 @@ def _findings(
 
 
 def _finding(
-    given: Mapping[str, Any], wells: Sequence[WellRef], lines: Sequence[int], bounds: _Bounds
+    given: Mapping[str, Any], wells: Sequence[WellRef], lines: Sequence[int], bounds: Bounds
 ) -> Finding:
     rule = _name(given["rule"])
     # One well stands beside each line, so that both ends can be shown; the rest follow.

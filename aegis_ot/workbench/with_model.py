@@ -6,6 +6,7 @@ this package too, and has no use for it.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -22,12 +23,11 @@ class Asking:
 
     Attributes:
         backend: Whom.
-        configuration: ``hybrid``, ``trace-blind`` or ``llm-only``, see
-            :mod:`aegis_ot.llm.configurations`.
+        judge: Judges with the model, where not :func:`aegis_ot.llm.hybrid` does.
     """
 
     backend: Backend
-    configuration: str = "hybrid"
+    judge: Callable[..., Judgement] | None = None
 
 
 def ask_model(
@@ -43,8 +43,8 @@ def ask_model(
         rule_set: The rules in force.
         options: How it was checked.
     """
-    from ..llm import judge_in
+    from ..llm import hybrid
     from ..preflight import Interpretation
 
     reading = Interpretation(examined.recording, rule_set, options)
-    return judge_in(asking.configuration, report, examined.dossier, reading, asking.backend)
+    return (asking.judge or hybrid)(report, examined.dossier, reading, asking.backend)

@@ -15,12 +15,13 @@ from aegis_ot.cli.models import ModelNames, RecordFolder, backend_of
 from aegis_ot.cli.options import Labware, Rules, one_of
 from aegis_ot.cli.paths import writable_folder, write_text
 from aegis_ot.errors import ConfigurationError
-from aegis_ot.llm import AskingConfiguration, load_prices
+from aegis_ot.llm import load_prices
 from aegis_ot.preflight import load_rules
 from aegis_ot.workbench import Asking, CheckSettings
 from aegis_ot.workbench.files import read_labware
 from aegis_ot.workbench.given import split
 
+from ..configurations import AskingConfiguration, asking_in
 from ..evaluation.layer1 import (
     Checking,
     Layer1Result,
@@ -74,7 +75,7 @@ def layer1(
     if figures is not None:
         writable_folder(figures)
     results: list[Layer1Result] = []
-    for asking in askings:
+    for name, asking in askings:
         settings = CheckSettings(
             rules=tuple(str(path.resolve()) for path in rules or ()),
             labware=read_labware(labware or ()),
@@ -86,7 +87,7 @@ def layer1(
                 folder.resolve(),
                 labels,
                 Checking(settings, rule_set),
-                asking.configuration if asking else AskingConfiguration.RULES_ONLY.value,
+                name,
                 seed=seed,
                 prices=table,
                 model=asking.backend.name if asking else "",
@@ -111,12 +112,12 @@ def layer1(
 
 def _askings(
     configs: Sequence[str], models: Sequence[str], record: Path | None
-) -> Iterator[Asking | None]:
-    """One for each configuration and model; ``None`` stands for the rules alone."""
+) -> Iterator[tuple[str, Asking | None]]:
+    """One for each configuration, by its name, and model; ``None`` stands for the rules alone."""
     for name in dict.fromkeys(configs):
         one_of("--config", name, LAYER1_CONFIGS)
         if name == AskingConfiguration.RULES_ONLY.value:
-            yield None
+            yield name, None
             continue
         chosen: Sequence[str | None] = models or (None,)
         for model in chosen:
@@ -125,4 +126,4 @@ def _askings(
                 raise ConfigurationError(
                     f"--config {name} asks a model. Name one with --model or in AEGIS_OT_MODEL."
                 )
-            yield Asking(backend, name)
+            yield name, asking_in(name, backend)

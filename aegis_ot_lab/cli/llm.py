@@ -22,13 +22,14 @@ from aegis_ot.cli.options import (
     one_of,
     refuse_to_overwrite,
 )
-from aegis_ot.llm import AskingConfiguration, ScriptedBackend, request_in
+from aegis_ot.llm import ScriptedBackend
 from aegis_ot.vocabulary import counted
 from aegis_ot.workbench import Asking, check_files, configurations_of
 from aegis_ot.workbench.call_settings import settings_of
 from aegis_ot.workbench.given import split
 
 from ..batch import export_requests, import_answers
+from ..configurations import AskingConfiguration, request_in
 
 ASKING = tuple(c.value for c in AskingConfiguration if c is not AskingConfiguration.RULES_ONLY)
 """Configurations that ask a model."""

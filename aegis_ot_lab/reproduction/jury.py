@@ -10,13 +10,15 @@ from typing import Any
 
 from aegis_ot.adapters.opentrons.rehearsal import Script
 from aegis_ot.dryrun import TRUSTING, DryRunSettings, dry_run
-from aegis_ot.llm import Backend, Reply, Request, State, load_prices, request_size
+from aegis_ot.llm import Backend, Reply, Request, State, load_prices
 from aegis_ot.sidecar import Analyser, RunAnalysis, make_analyser
 from aegis_ot.sidecar.analysers import make_detector
 from aegis_ot.sidecar.config import CascadeSettings
 from aegis_ot.vision.camera import Frame
 from aegis_ot.vision.types import Detector, Image, TipDetection
 from aegis_ot.vocabulary import Keyframe, Outcome, Route, Verdict
+
+from ..tokens import request_size
 
 CALIBRATION = 6
 

@@ -7,10 +7,11 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from aegis_ot.llm import AskingConfiguration, Backend, TokenUsage
+from aegis_ot.llm import Backend, TokenUsage
 from aegis_ot.preflight import RuleSet, load_rules
-from aegis_ot.workbench import Asking, CheckSettings
+from aegis_ot.workbench import CheckSettings
 
+from ..configurations import AskingConfiguration, asking_in
 from ..evaluation.layer1 import (
     Checking,
     Label,
@@ -47,7 +48,7 @@ def judge_benchmark(
 
     who = f"{configuration}, {backend.name}" if backend is not None else configuration
     context.progress.begin(f"Checking {name}, {who}", len(labels))
-    asking = None if backend is None else Asking(backend, configuration)
+    asking = None if backend is None else asking_in(configuration, backend)
     return evaluate_layer1(
         benchmark_folder(name).resolve(),
         labels,

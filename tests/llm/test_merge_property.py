@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from aegis_ot.llm import ScriptedBackend, State, judge_in
+from aegis_ot.llm import ScriptedBackend, State, hybrid
 from aegis_ot.preflight import Report
 from aegis_ot.vocabulary import Dossier, Severity, VerdictWord
 
@@ -128,7 +128,7 @@ def stands(before: Report, after: Report, dossier: Dossier) -> None:
 @given(said=answers())
 def test_no_answer_takes_anything_from_the_checks(text: str, said: dict[str, Any]) -> None:
     before, dossier, reading = examined(text)
-    after = judge_in("hybrid", before, dossier, reading, ScriptedBackend([said]))
+    after = hybrid(before, dossier, reading, ScriptedBackend([said]))
     assert not after.unanswered
     stands(before, after.report, dossier)
 
@@ -149,7 +149,7 @@ def test_no_answer_takes_anything_from_the_checks(text: str, said: dict[str, Any
 )
 def test_no_nonsense_takes_anything_from_the_checks(text: str, said: str | State) -> None:
     before, dossier, reading = examined(text)
-    after = judge_in("hybrid", before, dossier, reading, ScriptedBackend([said]))
+    after = hybrid(before, dossier, reading, ScriptedBackend([said]))
     assert after.unanswered
     stands(before, after.report, dossier)
 
@@ -164,6 +164,6 @@ def test_a_waiver_of_an_undecided_rule_is_not_stale_and_covers_the_models_findin
              "lines": [11, 15], "why": "", "fix": ""}
         ],
     }  # fmt: skip
-    after = judge_in("hybrid", before, dossier, reading, ScriptedBackend([said])).report
+    after = hybrid(before, dossier, reading, ScriptedBackend([said])).report
     assert [waived.finding.rule for waived in after.waived] == ["PCR-2"]
     assert after.remarks == ()

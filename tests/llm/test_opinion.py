@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from aegis_ot.llm import Judgement, ScriptedBackend, State, judge_in
+from aegis_ot.llm import Judgement, ScriptedBackend, State, hybrid
 from aegis_ot.llm.read_answer import read_opinion
 from aegis_ot.preflight import Options
 from aegis_ot.preflight.judging import unanswered
@@ -31,7 +31,7 @@ VIOLATED = finding("PCR-2", ["2:A2", "4:H12"], [11, 15], "The template's tip mix
 
 def judged(text: str, *said: Any, options: Options | None = None) -> Judgement:
     known = examined.__wrapped__(text, options) if options else examined(text)
-    return judge_in("hybrid", *known, ScriptedBackend(list(said)))
+    return hybrid(*known, ScriptedBackend(list(said)))
 
 
 def test_a_decided_finding_survives_any_answer() -> None:
@@ -298,7 +298,7 @@ def test_no_answer_is_undecided_and_said() -> None:
         assert result.unanswered
         assert state.value in unanswered(result.report)
         assert set(checked(SILENT)[0].undecided) < set(result.report.undecided)
-    nobody = judge_in("hybrid", *examined(SILENT))
+    nobody = hybrid(*examined(SILENT))
     assert nobody.reply is not None
     assert nobody.reply.state is State.NO_MODEL
 

@@ -12,7 +12,8 @@ from pathlib import Path
 import pytest
 
 from aegis_ot.adapters.opentrons.rehearsal import Script
-from aegis_ot.llm import ReplayBackend, ScriptedBackend, judge_in, request_in
+from aegis_ot.llm import ReplayBackend, ScriptedBackend, hybrid
+from aegis_ot.llm.layer1_prompt import hybrid_request
 from aegis_ot.preflight import Report
 from aegis_ot.preflight.opinion import check_with_dossier
 from aegis_ot.vocabulary import Severity, VerdictWord
@@ -39,7 +40,7 @@ def judged(request, tmp_path_factory) -> tuple[dict[str, dict], dict[str, Report
     """The labels, and the reports with the model's answers, by file."""
     folder, place = request.param, tmp_path_factory.mktemp("replay")
     names = answered(folder)
-    asked = [(n, request_in("hybrid", examined(folder, n)[1], rule_set())) for n in names]
+    asked = [(n, hybrid_request(examined(folder, n)[1], rule_set())) for n in names]
     export_requests([(n, one) for n, one in asked if one is not None], place / "requests.jsonl")
     done = import_answers(
         EXAMPLES / folder / "answers.jsonl", place / "kept", place / "requests.jsonl"
@@ -47,7 +48,7 @@ def judged(request, tmp_path_factory) -> tuple[dict[str, dict], dict[str, Report
     assert done.problems == ()
     assert done.kept == len(names) >= 20
     replay = ReplayBackend(place / "kept")
-    reports = {n: judge_in("hybrid", *examined(folder, n), replay).report for n in names}
+    reports = {n: hybrid(*examined(folder, n), replay).report for n in names}
     labels = json.loads((EXAMPLES / folder / "labels.json").read_text(encoding="utf-8"))
     return {label["file"]: label for label in labels}, reports
 
@@ -78,7 +79,7 @@ def test_the_checks_find_as_much_with_the_models_roles_alone() -> None:
         if label["file"] in said and label["verdict"] == "fail":
             roles = said[label["file"]] | {"answers": [], "findings": []}
             known = examined("prose-benchmark", label["file"])
-            after = judge_in("hybrid", *known, ScriptedBackend([roles])).report
+            after = hybrid(*known, ScriptedBackend([roles])).report
             assert set(label["rules"]) <= {finding.rule for finding in after.findings}
 
 
@@ -90,7 +91,7 @@ def test_what_the_model_adds_warns(judged) -> None:  # type: ignore[no-untyped-d
 
 def test_an_answer_may_name_the_protocol_only_if_it_is_one(tmp_path: Path) -> None:
     name = "b10.py"
-    request = request_in("hybrid", examined("benchmark", name)[1], rule_set())
+    request = hybrid_request(examined("benchmark", name)[1], rule_set())
     assert request is not None
     requests = tmp_path / "requests.jsonl"
     export_requests([(f"some/folder/{name}", request)], requests)

@@ -23,8 +23,8 @@ from aegis_ot.llm import (
     ScriptedBackend,
     State,
     make_backend,
-    request_in,
 )
+from aegis_ot.llm.layer1_prompt import hybrid_request
 from aegis_ot.preflight.asking import ask_sidecar
 from aegis_ot.sidecar import SidecarConfig, create_app
 from aegis_ot.sidecar.config import CameraSettings
@@ -267,8 +267,7 @@ def test_the_guard_is_served_by_imported_answers(
     serve: Serve, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     """What `aegis-ot llm export` wrote is what the robot's sidecar asks."""
-    request = request_in("hybrid", checked(GUARDED)[1], rule_set())
-    assert request is not None
+    request = hybrid_request(checked(GUARDED)[1], rule_set())
     said = answer(findings=[finding("PCR-2", ["2:A2", "4:H12"], [13, 17])])
     (tmp_path / "a.jsonl").write_text(json.dumps({"id": request.hash, "answer": said}))
     import_answers(tmp_path / "a.jsonl", tmp_path / "kept")

@@ -16,12 +16,12 @@ from pathlib import Path
 from aegis_ot.preflight import load_rules
 from aegis_ot.preflight.opinion import check_with_dossier
 from aegis_ot.adapters.opentrons.rehearsal import Script
-from aegis_ot.llm import request_in
+from aegis_ot.llm.layer1_prompt import hybrid_request
 
 rule_set = load_rules()
 for path in map(Path, sys.argv[1:]):
     dossier = check_with_dossier(Script(path.read_text(), path.name), rule_set)[1]
-    asked = request_in("hybrid", dossier, rule_set)
+    asked = hybrid_request(dossier, rule_set)
     print(path.name, dossier.digest, asked.hash)
 """
 

@@ -13,7 +13,7 @@ import pytest
 from syrupy.assertion import SnapshotAssertion
 
 from aegis_ot._version import DOCUMENTATION
-from aegis_ot.llm import AskingConfiguration, Judgement, Reply, State, TokenUsage
+from aegis_ot.llm import Judgement, Reply, State, TokenUsage
 from aegis_ot.preflight import load_rules
 from aegis_ot.preflight.opinion import no_answer
 from aegis_ot.reports import FORMATS, renderer
@@ -209,7 +209,7 @@ def test_html_is_self_contained_and_escaped() -> None:
 
 def _asked(reply: Reply, *findings: Finding, **more: object) -> CheckRun:
     judged = report(*findings, **more)
-    judgement = Judgement(AskingConfiguration.HYBRID, judged, reply)
+    judgement = Judgement(judged, reply)
     checked = CheckedProtocol("f.py", judged, lines=LINES, judgement=judgement)
     return CheckRun((checked,), DATABASE, "1")
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from typer.testing import CliRunner
 
 from aegis_ot.cli.app import app
-from aegis_ot.llm import ReplayBackend, judge_in
+from aegis_ot.llm import ReplayBackend, hybrid
 from tests.llm.samples import CONTAMINATED, SILENT, answer, examined
 
 runner = CliRunner()
@@ -37,7 +37,7 @@ def test_requests_out_and_answers_in(tmp_path: Path) -> None:
     request_of = {Path(line["about"]).name: line for line in lines}
     assert '"hash"' in next(replay.glob("*.json")).read_text()
     assert request_of["b.py"]["purpose"] == "layer1"
-    result = judge_in("hybrid", *examined(SILENT), ReplayBackend(replay))
+    result = hybrid(*examined(SILENT), ReplayBackend(replay))
     assert not result.unanswered, result.report.undecided
 
 

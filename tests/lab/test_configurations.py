@@ -2,19 +2,10 @@ from __future__ import annotations
 
 import pytest
 
-from aegis_ot.adapters.opentrons.rehearsal import Script
-from aegis_ot.llm import (
-    AskingConfiguration,
-    ReplayBackend,
-    ScriptedBackend,
-    State,
-    TokenUsage,
-    judge_in,
-    request_in,
-)
+from aegis_ot.llm import RecordingBackend, ReplayBackend, ScriptedBackend, State
 from aegis_ot.vocabulary import Severity, VerdictWord
-
-from .samples import CONTAMINATED, SILENT, answer, examined, finding, rule_set
+from aegis_ot_lab.configurations import judge_in
+from tests.llm.samples import CONTAMINATED, SILENT, answer, examined, finding, rule_set
 
 BLIND = {
     "family": "pcr",
@@ -31,16 +22,6 @@ def test_rules_only_asks_nobody() -> None:
     assert result.reply is None
     assert not result.unanswered
     assert backend.requests == []
-
-
-def test_hybrid_keeps_and_counts() -> None:
-    report, dossier, reading = examined(CONTAMINATED)
-    backend = ScriptedBackend([answer()], TokenUsage(10, 20, 30, 40))
-    result = judge_in(AskingConfiguration.HYBRID, report, dossier, reading, backend)
-    assert result.report.findings == report.findings
-    assert result.usage == TokenUsage(10, 20, 30, 40)
-    assert result.reply is not None
-    assert result.reply.model == "scripted"
 
 
 def test_trace_blind_is_the_models_verdict_alone() -> None:
@@ -92,8 +73,6 @@ def test_a_model_alone_that_does_not_answer_is_an_error_never_a_pass(configurati
 
 
 def test_every_configuration_works_on_recordings(tmp_path) -> None:  # type: ignore[no-untyped-def]
-    from aegis_ot.llm import RecordingBackend
-
     report, dossier, reading = examined(CONTAMINATED)
     for name, said in (("hybrid", answer()), ("trace-blind", BLIND), ("llm-only", BLIND)):
         folder = tmp_path / name
@@ -101,36 +80,3 @@ def test_every_configuration_works_on_recordings(tmp_path) -> None:  # type: ign
         live = judge_in(name, report, dossier, reading, recorder)
         again = judge_in(name, report, dossier, reading, ReplayBackend(folder))
         assert again.report == live.report
-
-
-def test_a_laboratorys_own_rules_are_told(tmp_path) -> None:  # type: ignore[no-untyped-def]
-    import json
-
-    from aegis_ot.preflight import load_rules
-    from aegis_ot.preflight.opinion import check_with_dossier
-    from aegis_ot.preflight.rule_set import shipped_rules
-
-    family = json.loads((shipped_rules() / "generic.json").read_text())
-    rule = next(r for r in family["rules"] if r["id"] == "GEN-1")
-    own = family | {
-        "family": "ours",
-        "default": False,
-        "rules": [
-            rule
-            | {
-                "id": "LAB-7",
-                "statement": "Never pipette on a Friday.",
-                "prompt": "Is it a Friday?",
-                "indicators": ["a weekday in the metadata"],
-            }
-        ],
-    }
-    (tmp_path / "ours.json").write_text(json.dumps(own))
-    rule_set_ = load_rules([tmp_path])
-    _, dossier, _ = check_with_dossier(Script(CONTAMINATED, "p.py"), rule_set_)
-    # The sidecar knows the shipped rules only; the dossier carries the others.
-    request = request_in("hybrid", dossier, rule_set())
-    assert request is not None
-    said = str(request.messages[0].parts[0])
-    for told in ("Never pipette on a Friday.", "Is it a Friday?", "a weekday in the metadata"):
-        assert told in said

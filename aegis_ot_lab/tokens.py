@@ -13,7 +13,7 @@ import json
 import re
 from dataclasses import dataclass
 
-from .backend import PromptPicture, Request
+from aegis_ot.llm.backend import PromptPicture, Request
 
 _PIECES = re.compile(r"[^\W\d_]+|\d+|\n+|[^\w\s]|_")
 
