@@ -15,7 +15,7 @@ from typing import Any
 
 from aegis_ot.errors import ConfigurationError
 from aegis_ot.llm.backend import Request, State
-from aegis_ot.llm.backends.exporting import ids_by_file, lines_of, read_requests, request_line
+from aegis_ot.llm.backends.exporting import lines_of, read_requests, request_line
 from aegis_ot.llm.backends.recording import add_answer, keep_picture
 from aegis_ot.llm.schema import problem_of, read_answer
 from aegis_ot.preflight.opinion import quote_problem
@@ -75,7 +75,7 @@ def import_answers(answers: Path, folder: Path, requests: Path | None = None) ->
         ConfigurationError: A file cannot be read, or the folder not written.
     """
     asked = {} if requests is None else read_requests(requests)
-    files = {} if requests is None else ids_by_file(requests)
+    files = {} if requests is None else _ids_by_file(requests)
     kept = 0
     problems: list[str] = []
     for number, line in enumerate(lines_of(answers), 1):
@@ -101,6 +101,20 @@ _FORM = {
     "properties": {"id": {"type": "string"}, "model": {"type": "string"}},
     "required": ["id", "answer"],
 }
+
+
+def _ids_by_file(requests: Path) -> dict[str, list[str]]:
+    """The ids of a file's requests, by the name of the file that each is about.
+
+    Args:
+        requests: A file that :func:`.read_requests` can read.
+    """
+    found: dict[str, list[str]] = {}
+    for line in lines_of(requests):
+        if line.strip():
+            request = json.loads(line)
+            found.setdefault(Path(str(request.get("about"))).name, []).append(request["id"])
+    return found
 
 
 def _named_by_file(given: Any, files: Mapping[str, Sequence[str]]) -> str:

@@ -18,12 +18,6 @@ ModelName = Annotated[
     str | None,
     typer.Option("--model", help=f"{MODEL_FORMS}, or none (AEGIS_OT_MODEL if left out)."),
 ]
-ModelNames = Annotated[
-    list[str] | None,
-    typer.Option(
-        "--model", help="Model to ask, see `check --model`; repeatable, to compare models."
-    ),
-]
 RecordFolder = Annotated[
     Path | None,
     typer.Option("--record", help="Keep requests and answers in this folder, for replay:FOLDER."),

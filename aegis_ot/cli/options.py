@@ -15,7 +15,6 @@ from ..workbench.given import DEFAULT_TIMEOUT_S
 _JUDGING = "How to judge"
 _VALUES = "What the protocol gets"
 
-Files = Annotated[list[Path], typer.Argument(help="Python protocols.")]
 FilesOrFolders = Annotated[
     list[Path] | None,
     typer.Argument(help="Protocols (Python, Protocol Designer), analyses, or folders of them."),

@@ -34,18 +34,6 @@ def empty_folder(folder: Path) -> None:
         raise ConfigurationError(f"{folder} is not empty; name a new folder.")
 
 
-def writable_folder(folder: Path) -> None:
-    """Make a folder: fail before the work and not after it.
-
-    Raises:
-        ConfigurationError: It cannot be made.
-    """
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise ConfigurationError(f"{folder} cannot be made: {error.strerror}.") from None
-
-
 def tip_finder(boxes: str) -> str:
     """What ``--boxes`` names, as the evaluation room says it."""
     return "default" if boxes == "detector" else boxes

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import heapq
 from collections.abc import Collection, Iterable, Mapping, Sequence
 
 from .config import RobotConfig
@@ -31,14 +30,3 @@ def next_job(
 def least_s(durations: Sequence[float], robots: int) -> float:
     """No schedule on so many equal robots is shorter, s: the longest job, or an even share."""
     return max([sum(durations) / robots, *durations]) if durations else 0.0
-
-
-def longest_first_s(durations: Sequence[float], robots: int) -> float:
-    """How long the longest-first schedule takes on so many equal robots, s.
-
-    At most 4/3 - 1/(3 robots) of the best (Graham 1969, SIAM J. Appl. Math. 17, 416).
-    """
-    free = [0.0] * robots
-    for duration in sorted(durations, reverse=True):
-        heapq.heapreplace(free, free[0] + duration)
-    return max(free)

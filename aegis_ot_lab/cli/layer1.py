@@ -11,9 +11,9 @@ import typer
 
 from aegis_ot.cli.counting import Counting
 from aegis_ot.cli.exit_codes import BROKEN, CLEAN
-from aegis_ot.cli.models import ModelNames, RecordFolder, backend_of
+from aegis_ot.cli.models import RecordFolder, backend_of
 from aegis_ot.cli.options import Labware, Rules, one_of
-from aegis_ot.cli.paths import writable_folder, write_text
+from aegis_ot.cli.paths import write_text
 from aegis_ot.errors import ConfigurationError
 from aegis_ot.llm import load_prices
 from aegis_ot.preflight import load_rules
@@ -29,6 +29,7 @@ from ..evaluation.layer1 import (
     evaluate_layer1,
     read_labels,
 )
+from .options import ModelNames, writable_folder
 
 LAYER1_CONFIGS = tuple(configuration.value for configuration in AskingConfiguration)
 """Judges of protocols that this command can score."""

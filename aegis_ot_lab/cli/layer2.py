@@ -13,10 +13,12 @@ import typer
 from aegis_ot.cli.exit_codes import BROKEN, CLEAN
 from aegis_ot.cli.models import ModelName, RecordFolder, backend_of
 from aegis_ot.cli.options import one_of
-from aegis_ot.cli.paths import open_dataset, tip_finder, writable_folder, write_text
+from aegis_ot.cli.paths import open_dataset, tip_finder, write_text
 from aegis_ot.errors import ConfigurationError
 from aegis_ot.vocabulary import counted
 from aegis_ot.workbench.given import split
+
+from .options import writable_folder
 
 if TYPE_CHECKING:
     from aegis_ot.llm import Backend

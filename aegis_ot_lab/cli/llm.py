@@ -12,7 +12,6 @@ from aegis_ot.cli.exit_codes import BROKEN
 from aegis_ot.cli.options import (
     Assay,
     CsvParameters,
-    Files,
     Ignore,
     Labware,
     Parameters,
@@ -30,6 +29,7 @@ from aegis_ot.workbench.given import split
 
 from ..batch import export_requests, import_answers
 from ..configurations import AskingConfiguration, request_in
+from .options import Files
 
 ASKING = tuple(c.value for c in AskingConfiguration if c is not AskingConfiguration.RULES_ONLY)
 """Configurations that ask a model."""

@@ -9,10 +9,12 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from aegis_ot.cli.exit_codes import BROKEN, CLEAN
-from aegis_ot.cli.models import ModelNames, RecordFolder, backend_of
+from aegis_ot.cli.models import RecordFolder, backend_of
 from aegis_ot.cli.options import one_of
-from aegis_ot.cli.paths import open_dataset, writable_folder, write_text
+from aegis_ot.cli.paths import open_dataset, write_text
 from aegis_ot.workbench.given import split
+
+from .options import ModelNames, writable_folder
 
 if TYPE_CHECKING:
     from ..reproduction import Entry

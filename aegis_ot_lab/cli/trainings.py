@@ -7,7 +7,9 @@ from typing import Annotated
 
 import typer
 
-from aegis_ot.cli.paths import open_dataset, writable_folder
+from aegis_ot.cli.paths import open_dataset
+
+from .options import writable_folder
 
 app = typer.Typer()
 train = typer.Typer(help="Train the tip detector.", no_args_is_help=True)

@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import pytest
 
-from aegis_ot.fleet.schedule import fitting, least_s, longest_first_s, next_job
+from aegis_ot.fleet.schedule import fitting, least_s, next_job
 
 from .support import fleet, job
 
@@ -53,6 +53,4 @@ def test_what_a_robot_lacks_is_told(needs, lacking):
 def test_bounds():
     assert least_s([5, 1, 1, 1], 2) == 5
     assert least_s([2, 2, 2], 2) == 3
-    assert longest_first_s([2, 2, 2], 2) == 4
-    assert longest_first_s([3, 3, 2, 2, 2], 2) == 7  # the best is 6; the known worst case, 7/6
     assert least_s([], 3) == 0

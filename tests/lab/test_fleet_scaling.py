@@ -1,7 +1,7 @@
 from __future__ import annotations
 
 from aegis_ot.fleet.report import FleetEntry, FleetReport
-from aegis_ot_lab.fleet_scaling import sweep, workload
+from aegis_ot_lab.fleet_scaling import longest_first_s, sweep, workload
 from tests.fleet.support import RESULT
 
 
@@ -39,3 +39,8 @@ def test_the_workload_many_times_over():
     tasks = workload()
     (point,) = sweep(tasks, judged(tasks), (32,), scale=100, rounds=2)
     assert (point.protocols, point.detected) == (32, 30)
+
+
+def test_the_longest_first():
+    assert longest_first_s([2, 2, 2], 2) == 4
+    assert longest_first_s([3, 3, 2, 2, 2], 2) == 7  # the best is 6; the known worst case, 7/6

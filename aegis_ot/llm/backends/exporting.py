@@ -81,20 +81,6 @@ def read_requests(requests: Path) -> dict[str, Mapping[str, Any]]:
     return found
 
 
-def ids_by_file(requests: Path) -> dict[str, list[str]]:
-    """The ids of a file's requests, by the name of the file that each is about.
-
-    Args:
-        requests: A file that :func:`read_requests` can read.
-    """
-    found: dict[str, list[str]] = {}
-    for line in lines_of(requests):
-        if line.strip():
-            request = json.loads(line)
-            found.setdefault(Path(str(request.get("about"))).name, []).append(request["id"])
-    return found
-
-
 def lines_of(path: Path) -> list[str]:
     """The lines of a file; JSON keeps line ends of other kinds inside its texts.
 
