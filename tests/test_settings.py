@@ -10,7 +10,8 @@ import pytest
 
 from aegis_ot import settings as module
 from aegis_ot.errors import ConfigurationError
-from aegis_ot.settings import PREFIX, Settings, load_settings
+from aegis_ot.settings import Settings, load_settings
+from aegis_ot.settings.sources import PREFIX
 from aegis_ot.settings.values import READERS
 
 

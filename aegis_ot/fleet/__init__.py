@@ -4,8 +4,8 @@ An agent owns one robot's Layer 1 validator and its Layer 2 session; a coordinat
 protocols. See ``docs/how-to/fleet.md``.
 """
 
-from .config import FleetConfig, RobotConfig
-from .coordinator import FleetScreen, run_fleet
+from .config import FleetConfig
+from .coordinator import run_fleet
 from .hosting import hold_robots, serve_agents
 from .jobs import Job, read_job
 from .report import FleetReport
@@ -13,9 +13,7 @@ from .report import FleetReport
 __all__ = [
     "FleetConfig",
     "FleetReport",
-    "FleetScreen",
     "Job",
-    "RobotConfig",
     "hold_robots",
     "read_job",
     "run_fleet",

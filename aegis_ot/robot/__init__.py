@@ -4,8 +4,7 @@ Nothing here runs on the robot. What its server answers, and when, is in Opentro
 reference; see ``docs/how-to/robot.md`` for what is made of it.
 """
 
-from .address import robot_url
 from .client import RobotClient
-from .server_answers import Analysis, Command, Page, Pipette, RunSnapshot
+from .server_answers import Analysis, Command
 
-__all__ = ["Analysis", "Command", "Page", "Pipette", "RobotClient", "RunSnapshot", "robot_url"]
+__all__ = ["Analysis", "Command", "RobotClient"]

@@ -9,50 +9,40 @@ from typing import TYPE_CHECKING
 from ..lazy import door
 
 if TYPE_CHECKING:
-    from .answers import RECOVERY, Answer
+    from .answers import RECOVERY
     from .delivery_view import seen_well
     from .page_view import RunView, run_view
-    from .plates import PlateView, WellView, count_wells, plates_of
-    from .situation import Situation, doing, situations
+    from .plates import PlateView, count_wells, plates_of
     from .states import state_of
     from .summary import run_account
-    from .wells import Axis, Box, Inspection, Level, Picture, Point, SeenFrame, SeenWell
+    from .wells import Box, Inspection, Level, Picture, SeenWell
 
 __getattr__ = door(
     __name__,
     {
-        "answers": "Answer RECOVERY",
+        "answers": "RECOVERY",
         "page_view": "RunView run_view",
-        "plates": "PlateView WellView count_wells plates_of",
+        "plates": "PlateView count_wells plates_of",
         "delivery_view": "seen_well",
-        "situation": "Situation doing situations",
         "states": "state_of",
         "summary": "run_account",
-        "wells": "Axis Box Inspection Level Picture Point SeenFrame SeenWell",
+        "wells": "Box Inspection Level Picture SeenWell",
     },
 )
 
 __all__ = [
     "RECOVERY",
-    "Answer",
-    "Axis",
     "Box",
     "Inspection",
     "Level",
     "Picture",
     "PlateView",
-    "Point",
     "RunView",
-    "SeenFrame",
     "SeenWell",
-    "Situation",
-    "WellView",
     "count_wells",
-    "doing",
     "plates_of",
     "run_account",
     "run_view",
     "seen_well",
-    "situations",
     "state_of",
 ]

@@ -10,7 +10,6 @@ from .recovering import TipKnowledge
 from .rejection import tell_of_rejection
 from .sidecar_client import SidecarClient
 from .spare_tips import TipForecast
-from .summary import WatchSummary
 from .tracker import Tracker
 from .watch import Watcher
 
@@ -22,7 +21,6 @@ __all__ = [
     "TipForecast",
     "TipKnowledge",
     "Tracker",
-    "WatchSummary",
     "Watcher",
     "about_layer1",
     "tell_of_rejection",

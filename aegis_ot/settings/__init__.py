@@ -1,6 +1,6 @@
 """Settings of the guard. Door: :func:`load_settings`, :class:`Settings`."""
 
 from .fields import NAMES, Settings
-from .sources import PREFIX, load_settings
+from .sources import load_settings
 
-__all__ = ["NAMES", "PREFIX", "Settings", "load_settings"]
+__all__ = ["NAMES", "Settings", "load_settings"]

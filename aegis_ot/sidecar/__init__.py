@@ -6,9 +6,8 @@ from ..lazy import door
 
 if TYPE_CHECKING:
     from .analysers import make_analyser, make_detector
-    from .analysis import Analyser, Evidence, Judged, RunAnalysis
+    from .analysis import Analyser, Judged, RunAnalysis
     from .app import create_app
-    from .auditing import Auditor
     from .config import SidecarConfig
     from .server import running_sidecar, serve
 
@@ -16,9 +15,8 @@ __getattr__ = door(
     __name__,
     {
         "analysers": "make_analyser make_detector",
-        "analysis": "Analyser Evidence Judged RunAnalysis",
+        "analysis": "Analyser Judged RunAnalysis",
         "app": "create_app",
-        "auditing": "Auditor",
         "config": "SidecarConfig",
         "server": "running_sidecar serve",
     },
@@ -26,8 +24,6 @@ __getattr__ = door(
 
 __all__ = [
     "Analyser",
-    "Auditor",
-    "Evidence",
     "Judged",
     "RunAnalysis",
     "SidecarConfig",

@@ -55,11 +55,6 @@ class AimedFrame:
     blown: float
     advice: list[str] = field(default_factory=list)
 
-    @property
-    def good(self) -> bool:
-        """Whether there is nothing to improve."""
-        return self.advice == ["Good."]
-
     def to_json(self) -> dict[str, object]:
         """With the picture as an address that holds it."""
         height, width = self.frame.image.shape[:2]

@@ -9,28 +9,27 @@ from typing import TYPE_CHECKING
 from ..lazy import door
 
 if TYPE_CHECKING:
-    from .configuration import Configuration, configurations_of, find_configuration
+    from .configuration import Configuration, configurations_of
     from .projects import Project, check_files, check_projects
     from .rehearser import Rehearser, TaskFailed
-    from .result import Broken, CheckedProtocol, CheckRun, Exploration, Problem
+    from .result import CheckedProtocol, CheckRun, Exploration, Problem
     from .run import CheckSettings
     from .with_model import Asking
 
 __getattr__ = door(
     __name__,
     {
-        "configuration": "Configuration configurations_of find_configuration",
+        "configuration": "Configuration configurations_of",
         "with_model": "Asking",
         "projects": "Project check_files check_projects",
         "rehearser": "Rehearser TaskFailed",
-        "result": "Broken CheckRun CheckedProtocol Exploration Problem",
+        "result": "CheckRun CheckedProtocol Exploration Problem",
         "run": "CheckSettings",
     },
 )
 
 __all__ = [
     "Asking",
-    "Broken",
     "CheckRun",
     "CheckSettings",
     "CheckedProtocol",
@@ -43,5 +42,4 @@ __all__ = [
     "check_files",
     "check_projects",
     "configurations_of",
-    "find_configuration",
 ]

@@ -9,8 +9,9 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from aegis_ot.adapters.opentrons.rehearsal import Script
-from aegis_ot.fleet import FleetConfig, FleetReport, FleetScreen, Job, run_fleet
+from aegis_ot.fleet import FleetConfig, FleetReport, Job, run_fleet
 from aegis_ot.fleet.agent import AegisAgent
+from aegis_ot.fleet.coordinator import FleetScreen
 from aegis_ot.fleet.jobs import JobNeeds
 from aegis_ot.fleet.report import FleetEntry
 from aegis_ot.fleet.sessions import Watch

@@ -22,7 +22,8 @@ from academy.serialize import SerializationStrategy
 from redis import Redis
 
 from aegis_ot.errors import AgentLost, ConfigurationError
-from aegis_ot.fleet import FleetConfig, FleetScreen, hosting, read_job, run_fleet, serve_agents
+from aegis_ot.fleet import FleetConfig, hosting, read_job, run_fleet, serve_agents
+from aegis_ot.fleet.coordinator import FleetScreen
 
 from ..cli.commands import Command
 

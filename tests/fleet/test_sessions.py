@@ -5,7 +5,8 @@ from __future__ import annotations
 import asyncio
 import base64
 
-from aegis_ot.fleet import FleetConfig, FleetScreen, read_job, run_fleet
+from aegis_ot.fleet import FleetConfig, read_job, run_fleet
+from aegis_ot.fleet.coordinator import FleetScreen
 from aegis_ot.reports.fleet_html import fleet_report_html
 from aegis_ot.sidecar import SidecarConfig, running_sidecar
 

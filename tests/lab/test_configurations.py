@@ -2,7 +2,8 @@ from __future__ import annotations
 
 import pytest
 
-from aegis_ot.llm import RecordingBackend, ReplayBackend, ScriptedBackend, State
+from aegis_ot.llm import ReplayBackend, ScriptedBackend, State
+from aegis_ot.llm.backends.recording import RecordingBackend
 from aegis_ot.vocabulary import Severity, VerdictWord
 from aegis_ot_lab.configurations import judge_in
 from tests.llm.samples import CONTAMINATED, SILENT, answer, examined, finding, rule_set

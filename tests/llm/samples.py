@@ -7,8 +7,9 @@ import textwrap
 from typing import Any
 
 from aegis_ot.adapters.opentrons.rehearsal import Script
-from aegis_ot.llm import Message, Passage, PromptPicture, Request
+from aegis_ot.llm import Request
 from aegis_ot.llm.answer import strict_object
+from aegis_ot.llm.backend import Message, Passage, PromptPicture
 from aegis_ot.llm.backends.retrying import Clock
 from aegis_ot.preflight import Options, Report, RuleSet, load_rules
 from aegis_ot.preflight.judging import Interpretation

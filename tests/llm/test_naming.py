@@ -6,14 +6,10 @@ from pathlib import Path
 import pytest
 
 from aegis_ot.errors import ConfigurationError
-from aegis_ot.llm import (
-    AnthropicBackend,
-    OpenAIBackend,
-    RecordingBackend,
-    State,
-    make_backend,
-    model_from_environment,
-)
+from aegis_ot.llm import State, make_backend, model_from_environment
+from aegis_ot.llm.backends.anthropic_api import AnthropicBackend
+from aegis_ot.llm.backends.openai_api import OpenAIBackend
+from aegis_ot.llm.backends.recording import RecordingBackend
 
 from .samples import GOOD, request
 from .wire_server import Answer, WireServer, openai_completion

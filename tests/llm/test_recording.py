@@ -9,16 +9,10 @@ from typing import Any
 import pytest
 
 from aegis_ot.errors import ConfigurationError
-from aegis_ot.llm import (
-    AnthropicBackend,
-    RecordingBackend,
-    ReplayBackend,
-    RequestOptions,
-    ScriptedBackend,
-    State,
-    TokenUsage,
-    make_backend,
-)
+from aegis_ot.llm import ReplayBackend, ScriptedBackend, State, TokenUsage, make_backend
+from aegis_ot.llm.backends.anthropic_api import AnthropicBackend
+from aegis_ot.llm.backends.recording import RecordingBackend
+from aegis_ot.llm.backends.service import RequestOptions
 from aegis_ot_lab.batch import export_requests, import_answers
 from tests.llm.samples import GOOD, PNG, request
 from tests.llm.wire_server import Answer, WireServer, anthropic_message

@@ -15,16 +15,11 @@ import numpy as np
 import pytest
 
 from aegis_ot.errors import ConfigurationError
-from aegis_ot.llm import (
-    AnthropicBackend,
-    PromptPicture,
-    RecordingBackend,
-    ReplayBackend,
-    RequestOptions,
-    ScriptedBackend,
-    State,
-    make_backend,
-)
+from aegis_ot.llm import ReplayBackend, ScriptedBackend, State, make_backend
+from aegis_ot.llm.backend import PromptPicture
+from aegis_ot.llm.backends.anthropic_api import AnthropicBackend
+from aegis_ot.llm.backends.recording import RecordingBackend
+from aegis_ot.llm.backends.service import RequestOptions
 from aegis_ot.llm.gate_tiers import VlmTiers
 from aegis_ot.llm.vlm import VlmGate, gate_request
 from aegis_ot.sidecar import SidecarConfig, make_analyser

@@ -14,15 +14,11 @@ from typing import Any
 
 import pytest
 
-from aegis_ot.llm import (
-    AnthropicBackend,
-    Backend,
-    OpenAIBackend,
-    Reply,
-    RequestOptions,
-    RetryPolicy,
-    State,
-)
+from aegis_ot.llm import Backend, Reply, State
+from aegis_ot.llm.backends.anthropic_api import AnthropicBackend
+from aegis_ot.llm.backends.openai_api import OpenAIBackend
+from aegis_ot.llm.backends.retrying import RetryPolicy
+from aegis_ot.llm.backends.service import RequestOptions
 
 from .samples import GOOD, PNG, FakeClock, request
 from .wire_server import (

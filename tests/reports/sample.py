@@ -7,7 +7,8 @@ from aegis_ot.preflight.judging import RoleEvidence, Waived, Waiver
 from aegis_ot.preflight.roles import Inference
 from aegis_ot.preflight.rules import Common, Example, Examples, Family, RoleSpec, RuleSpec
 from aegis_ot.vocabulary import Finding, Remark, Severity, Site, Undecided, VerdictWord, WellRef
-from aegis_ot.workbench import Broken, CheckedProtocol, CheckRun, Exploration, Problem
+from aegis_ot.workbench import CheckedProtocol, CheckRun, Exploration, Problem
+from aegis_ot.workbench.result import Broken
 
 
 def rule(name: str, title: str, severity: str = "error", scope: str = "family") -> RuleSpec:

@@ -10,7 +10,8 @@ import httpx
 import pytest
 
 from aegis_ot.errors import ConfigurationError, RobotError, RobotRefused, RobotUnreachable
-from aegis_ot.robot import RobotClient, robot_url
+from aegis_ot.robot import RobotClient
+from aegis_ot.robot.address import robot_url
 from aegis_ot.robot.clocks import RobotClock
 from aegis_ot.robot.following import Completed, Found, Lost, Started, StatusChanged, follow
 

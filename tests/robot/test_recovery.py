@@ -18,7 +18,7 @@ from aegis_ot.robot.held_liquid import HeldLiquid
 from aegis_ot.robot.keyframe_times import PastLink
 from aegis_ot.robot.server_answers import Command as RobotCommand
 from aegis_ot.robot.watching import watch_run
-from aegis_ot.run_view import situations
+from aegis_ot.run_view.situation import situations
 
 from ..cli.commands import Command
 from ..sidecar.helpers import Robot

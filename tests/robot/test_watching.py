@@ -22,7 +22,7 @@ from aegis_ot.robot.running import RobotRun
 from aegis_ot.robot.server_answers import Command as RobotCommand
 from aegis_ot.robot.verdicts import VerdictReader, WellVerdict
 from aegis_ot.robot.watching import LOSSES, WatchPolicies, await_run, watch_run
-from aegis_ot.run_view import Situation, situations
+from aegis_ot.run_view.situation import Situation, situations
 from aegis_ot.runtime.sidecar_client import Acknowledgement
 from aegis_ot.sidecar import SidecarConfig, running_sidecar
 from aegis_ot.sidecar.analysis import Judged

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from aegis_ot.run_view import doing, situations
+from aegis_ot.run_view.situation import doing, situations
 
 from .overviews import delivery, hold, overview
 

@@ -15,8 +15,9 @@ import pytest
 
 from aegis_ot.errors import CameraError, ConfigurationError
 from aegis_ot.sidecar import SidecarConfig, running_sidecar
-from aegis_ot.sidecar.cameras import FreeRunning, Raw, open_camera
+from aegis_ot.sidecar.cameras import FreeRunning, open_camera
 from aegis_ot.sidecar.cameras.codec import decode_jpeg
+from aegis_ot.sidecar.cameras.raw import Raw
 from aegis_ot.sidecar.config import CameraSettings
 
 from .helpers import Robot, StubAnalyser, make_jpeg, make_keyframe, until

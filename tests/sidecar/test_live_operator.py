@@ -10,7 +10,7 @@ import httpx
 import pytest
 
 from aegis_ot.errors import CameraError
-from aegis_ot.run_view import situations
+from aegis_ot.run_view.situation import situations
 from aegis_ot.runtime.sidecar_client import SidecarClient
 from aegis_ot.settings import Settings
 from aegis_ot.sidecar import SidecarConfig, running_sidecar

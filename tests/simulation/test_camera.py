@@ -10,9 +10,10 @@ import numpy as np
 import pytest
 
 from aegis_ot.errors import CameraError, ConfigurationError
-from aegis_ot.simulation import SceneState, SessionParameters, SimulatedCamera, TipContent
+from aegis_ot.simulation import SessionParameters, SimulatedCamera
 from aegis_ot.simulation.exposure import decode
 from aegis_ot.simulation.render import render_jpeg
+from aegis_ot.simulation.scene import SceneState, TipContent
 from aegis_ot.vision.camera import Camera
 from aegis_ot.vocabulary import Keyframe
 from aegis_ot_lab.drawing.random_sessions import random_session

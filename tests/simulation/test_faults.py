@@ -8,8 +8,8 @@ from dataclasses import replace
 import pytest
 
 from aegis_ot.errors import ConfigurationError
-from aegis_ot.simulation import Fault, FaultKind, FaultPlan
-from aegis_ot.simulation.faults import Where
+from aegis_ot.simulation.fault_plan import FaultPlan
+from aegis_ot.simulation.faults import Fault, FaultKind, Where
 from aegis_ot.vocabulary import Keyframe, KeyframeKind, WellRef
 
 ORDER = tuple(KeyframeKind)

@@ -8,18 +8,11 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from aegis_ot.simulation import (
-    Dye,
-    FrameTruth,
-    SessionParameters,
-    TipContent,
-    dye_for,
-    place_tip,
-    render,
-    render_jpeg,
-)
-from aegis_ot.simulation.dyes import DYES, GREEN, WATER
+from aegis_ot.simulation import FrameTruth, SessionParameters, place_tip, render_jpeg
+from aegis_ot.simulation.dyes import DYES, GREEN, WATER, Dye, dye_for
 from aegis_ot.simulation.exposure import decode, frame_gain
+from aegis_ot.simulation.render import render
+from aegis_ot.simulation.scene import TipContent
 from aegis_ot.vision.tips import tip_for
 from aegis_ot.vocabulary import KeyframeKind
 from aegis_ot_lab.drawing.random_sessions import random_session

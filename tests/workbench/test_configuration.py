@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 
 from aegis_ot.errors import ConfigurationError
-from aegis_ot.workbench import Configuration, configurations_of, find_configuration
-from aegis_ot.workbench.configuration import ConfiguredWaiver
+from aegis_ot.workbench import Configuration, configurations_of
+from aegis_ot.workbench.configuration import ConfiguredWaiver, find_configuration
 
 pytest.importorskip("tomllib")
 

@@ -37,10 +37,6 @@ class RunTrouble:
         self._lasting.add(kind)
         self._alerts.tell(Notice(self._run, kind, WHAT[kind], seen))
 
-    def lasts(self, kind: str) -> bool:
-        """Whether trouble of this kind began, and is not over."""
-        return kind in self._lasting
-
     def is_over(self, kind: str) -> None:
         """It works again.
 

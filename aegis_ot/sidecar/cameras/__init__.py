@@ -4,17 +4,14 @@ Door: :func:`open_camera` for one, :func:`open_cameras` for all that the setting
 """
 
 from .bound import BoundCameras
-from .freerunning import FreeRunning, Health, Source
+from .freerunning import FreeRunning, Health
 from .health import camera_health
-from .raw import Raw
 from .registry import open_camera, open_cameras
 
 __all__ = [
     "BoundCameras",
     "FreeRunning",
     "Health",
-    "Raw",
-    "Source",
     "camera_health",
     "open_camera",
     "open_cameras",
