@@ -119,17 +119,7 @@ def _projects(
 ) -> Iterator[Project]:
     """The protocols by how their projects want them judged; a faulty file is told before any is."""
     for configured, own in configurations_of([one.path for one in protocols], Path.cwd()):
-        settings, rule_set = settings_of(
-            configured,
-            assay=None,
-            rules=rules,
-            select=None,
-            ignore=None,
-            parameter=None,
-            csv=None,
-            labware=labware,
-            timeout=timeout,
-        )
+        settings, rule_set = settings_of(configured, rules=rules, labware=labware, timeout=timeout)
         settings = replace(
             settings,
             baseline=read_baseline(Path(configured.baseline)) if configured.baseline else None,

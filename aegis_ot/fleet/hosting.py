@@ -47,7 +47,6 @@ async def serve_agents(
     config: FleetConfig,
     names: Collection[str] = (),
     started: Callable[[Collection[str]], None] = lambda names: None,
-    make_agent: MakeAgent | None = None,
 ) -> None:
     """Serve agents of a fleet on this host until cancelled.
 
@@ -55,7 +54,6 @@ async def serve_agents(
         config: Its file, the same on every host.
         names: Which robots; none: all that are marked ``remote``.
         started: Told once they can be found.
-        make_agent: As for :func:`~.coordinator.run_fleet`.
 
     Raises:
         ConfigurationError: There is no such robot, or the exchange cannot be used.
@@ -64,7 +62,7 @@ async def serve_agents(
     robots = _named(config, names) or [robot for robot in config.robot if robot.remote]
     if config.exchange == "local" or not robots:
         raise ConfigurationError("Serving agents needs an exchange and robots with remote = true.")
-    async with _hosted(config, robots, make_agent) as hosted:
+    async with _hosted(config, robots, None) as hosted:
         started([robot.name for robot in robots])
         await hosted.one_ended()
         raise AgentLost(f"An agent has ended. Is {_public(config.exchange)} still there?")

@@ -43,9 +43,9 @@ class Bundle:
     modules: int
 
 
-def make_bundle(package: Path = PACKAGE, also: Iterable[str] = ()) -> Bundle:
+def make_bundle(also: Iterable[str] = ()) -> Bundle:
     """Pack ``guard`` with all that it imports, the compiled rules among it."""
-    files = {name: stripped(text) for name, text in sorted(robot_half(package, also))}
+    files = {name: stripped(text) for name, text in sorted(robot_half(PACKAGE, also))}
     modules = len(files)
     data = json.dumps(files, ensure_ascii=False, separators=(",", ":")).encode()
     name = f"{ROOT}_{hashlib.sha256(data).hexdigest()[:10]}"

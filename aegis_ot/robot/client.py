@@ -217,9 +217,9 @@ class RobotClient(RobotConnection):
         except (RobotRefused, KeyError, ValueError):
             return None
 
-    def commands(self, run: str, cursor: int, length: int = PAGE) -> Page:
+    def commands(self, run: str, cursor: int) -> Page:
         """Commands from number ``cursor`` on; none where there are not so many."""
-        params = {"cursor": cursor, "pageLength": length}
+        params = {"cursor": cursor, "pageLength": PAGE}
         answer = self.ask("GET", f"/runs/{run}/commands", params=params)
         meta = answer.get("meta") or {}
         # The server answers a cursor beyond the end with its last command.

@@ -21,16 +21,14 @@ class RobotClock:
 
     Args:
         ask: The robot's clock now, s since the epoch.
-        now: ``time.monotonic``.
 
     Attributes:
         jumps: How often the robot's clock was seen to be set.
         round_trip_s: Of the look that counts; half of it is how exact a time is.
     """
 
-    def __init__(self, ask: Callable[[], float], now: Callable[[], float] = time.monotonic) -> None:
+    def __init__(self, ask: Callable[[], float]) -> None:
         self._ask = ask
-        self._now = now
         self._ahead: float | None = None
         self.jumps = 0
         self.round_trip_s = 0.0
@@ -39,9 +37,9 @@ class RobotClock:
         """Compare the clocks, by the quickest of three questions."""
         best: tuple[float, float] | None = None
         for _ in range(_LOOKS):
-            before = self._now()
+            before = time.monotonic()
             told = self._ask()
-            after = self._now()
+            after = time.monotonic()
             look = (after - before, told - (before + after) / 2)
             best = look if best is None else min(best, look)
         assert best is not None

@@ -16,26 +16,21 @@ _Connection = TypeVar("_Connection", bound="RobotConnection")
 
 
 class RobotConnection:
-    """Asks one robot's server.
+    """Asks one robot's server, with the settings ``robot_token`` and ``robot_reason``.
 
     Args:
         host: As for :func:`~.address.robot_url`.
         transport: Instead of the network, for tests.
-        token: Of a robot whose access is controlled; the setting ``robot_token`` if ``None``. With
-            it goes the setting ``robot_reason``.
 
     Every method raises :class:`RobotUnreachable` (no answer in time), :class:`RobotRefused` (by
     the server) or :class:`RobotError` (its answer makes no sense).
     """
 
-    def __init__(
-        self, host: str, transport: httpx.BaseTransport | None = None, token: str | None = None
-    ) -> None:
+    def __init__(self, host: str, transport: httpx.BaseTransport | None = None) -> None:
         self.url = robot_url(host)
-        settings = load_settings(**({"robot_token": token} if token else {}))
         self._http = httpx.Client(
             base_url=self.url,
-            headers=settings.robot_headers(),
+            headers=load_settings().robot_headers(),
             timeout=_TIMEOUT_S,
             transport=transport,
             trust_env=False,  # a proxy for the internet does not lead to a robot on the bench

@@ -124,9 +124,9 @@ class Deck:
         return self._view
 
 
-def patiently(ask: Callable[[], T], patience_s: float = PATIENCE_S) -> T:
+def patiently(ask: Callable[[], T]) -> T:
     """Ask again while the robot does not answer; raises RobotUnreachable in the end."""
-    until = time.monotonic() + patience_s
+    until = time.monotonic() + PATIENCE_S
     while True:
         try:
             return ask()

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import time
 import uuid
-from collections.abc import Callable
 from dataclasses import replace
 
 from ..runtime import SidecarClient
@@ -47,18 +46,15 @@ class PastLink(SidecarClient):
         lost: Keyframes whose moment was too long ago.
     """
 
-    def __init__(
-        self, url: str, token: str | None, now: Callable[[], float] = time.monotonic
-    ) -> None:
+    def __init__(self, url: str, token: str | None) -> None:
         super().__init__(url, token, lambda: None, uuid.uuid4().hex)
-        self._now = now
         self.moments: dict[int, float] = {}
         self.lost = 0
 
     def keyframe(self, keyframe: Keyframe, timeout_s: float, ago_s: float = 0.0) -> Acknowledgement:
         """As in :class:`SidecarClient`; one whose moment is out of reach goes as late."""
         moment = self.moments.get(keyframe.sequence)
-        ago = 0.0 if moment is None else self._now() - moment
+        ago = 0.0 if moment is None else time.monotonic() - moment
         if moment is None or not -REACH_S < ago < REACH_S:
             self.lost += not keyframe.late
             return super().keyframe(replace(keyframe, late=True), timeout_s)

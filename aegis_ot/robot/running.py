@@ -12,8 +12,6 @@ from ..errors import LinkError, RobotError
 from ..run_view.overview import is_not_as_rehearsed
 from .client import RobotClient
 from .following import (
-    PATIENCE_S,
-    POLL_S,
     Completed,
     Found,
     Gone,
@@ -117,9 +115,6 @@ def run_analysed(
     screen: Screen,
     verdicts: VerdictReader | None = None,
     inputs: Inputs | None = None,
-    *,
-    poll_s: float = POLL_S,
-    patience_s: float = PATIENCE_S,
 ) -> RobotRun:
     """Start an uploaded protocol and follow it to its end.
 
@@ -130,7 +125,6 @@ def run_analysed(
         screen: Shows it, and is asked what the person wants.
         verdicts: Of the run's sidecar.
         inputs: What it was analysed with, and the offsets of its labware.
-        poll_s, patience_s: As for :func:`~.following.follow`.
 
     Raises:
         RobotError: The robot refuses the start, or is lost for too long. The run then goes on, or
@@ -145,9 +139,7 @@ def run_analysed(
     screen.began(len(run.analysis.kinds))
     began = time.monotonic()
     try:
-        for step in follow(
-            robot, run.id, poll_s=poll_s, patience_s=patience_s, idle=driver.look_around
-        ):
+        for step in follow(robot, run.id, idle=driver.look_around):
             driver.take(step)
         run.seconds = time.monotonic() - began
         driver.await_verdicts()
@@ -166,13 +158,11 @@ class RunDriver:
         run: RobotRun,
         screen: Screen,
         verdicts: VerdictReader | None = None,
-        now: Callable[[], float] = time.monotonic,
     ) -> None:
         self._robot = robot
         self._run = run
         self._screen = screen
         self._verdicts = verdicts
-        self._now = now
         self._next_look = 0.0
         self._trouble = ""
         self._waiting_for = ""
@@ -208,8 +198,8 @@ class RunDriver:
                 self.recovery.act(wanted)
             except RobotError as error:
                 self._screen.says(str(error))
-        if self._now() >= self._next_look:
-            self._next_look = self._now() + VERDICTS_EVERY_S
+        if time.monotonic() >= self._next_look:
+            self._next_look = time.monotonic() + VERDICTS_EVERY_S
             self._read_verdicts()
 
     def paused_because(self, text: str) -> None:
@@ -220,18 +210,18 @@ class RunDriver:
         """The run is over: wait for its last verdicts while the sidecar works on them."""
         if self._verdicts is None:
             return
-        began = heard = self._now()
+        began = heard = time.monotonic()
         open_: dict[int, str] = {}
         told = False
         while True:
             self._read_verdicts()
             if self._verdicts.open != open_:
-                open_, heard = dict(self._verdicts.open), self._now()
+                open_, heard = dict(self._verdicts.open), time.monotonic()
             reached = not self._trouble and self._verdicts.ended
             patience = LAST_VERDICTS_S if reached else LOST_SIDECAR_S
-            if not (open_ or self._trouble) or self._now() - heard >= patience:
+            if not (open_ or self._trouble) or time.monotonic() - heard >= patience:
                 break
-            if open_ and not told and self._now() - began >= WAIT_SHOWN_S:
+            if open_ and not told and time.monotonic() - began >= WAIT_SHOWN_S:
                 self._screen.says(tell_open(open_.values()))
                 told = True
             time.sleep(VERDICTS_EVERY_S)

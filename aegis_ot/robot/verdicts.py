@@ -56,7 +56,6 @@ class VerdictReader:
         protocol: File name of the protocol; of several runs it tells which is meant.
         run: Identifier of the run there, where it is known.
         robot: The robot's name, which tells likewise: others may run the same protocol.
-        transport: Instead of the network, for tests.
 
     Attributes:
         run: Identifier of the run there, ``""`` until it is known.
@@ -71,7 +70,6 @@ class VerdictReader:
         protocol: str = "",
         run: str = "",
         robot: str = "",
-        transport: httpx.BaseTransport | None = None,
     ) -> None:
         self.url = url.rstrip("/")
         self.run = run
@@ -87,7 +85,6 @@ class VerdictReader:
             base_url=self.url,
             headers=headers,
             timeout=_TIMEOUT_S,
-            transport=transport,
             trust_env=False,
         )
 

@@ -110,11 +110,8 @@ def checked_protocol(
     if file is not None and not is_text:
         raise ConfigurationError("file: is for a text; a path says itself which file it is.")
     path = Path(file or _UNNAMED) if is_text else Path(source)
-    options = dict.fromkeys(("assay", "rules", "select", "ignore", "labware", "timeout"))
     ((configured, _),) = configurations_of([path], Path.cwd())
-    settings, rule_set = settings_of(
-        configured, **{**options, **(given or {})}, parameter=None, csv=None
-    )
+    settings, rule_set = settings_of(configured, **(given or {}))
     known = configured.baseline
     settings = dataclasses.replace(
         settings,

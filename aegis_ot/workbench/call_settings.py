@@ -17,14 +17,14 @@ from .run import CheckSettings
 def settings_of(
     configured: Configuration,
     *,
-    assay: Sequence[str] | None,
-    rules: Sequence[Path] | None,
-    select: Sequence[str] | None,
-    ignore: Sequence[str] | None,
-    parameter: Sequence[str] | None,
-    csv: Sequence[str] | None,
-    labware: Sequence[Path] | None,
-    timeout: float | None,
+    assay: Sequence[str] | None = None,
+    rules: Sequence[Path] | None = None,
+    select: Sequence[str] | None = None,
+    ignore: Sequence[str] | None = None,
+    parameter: Sequence[str] | None = None,
+    csv: Sequence[str] | None = None,
+    labware: Sequence[Path] | None = None,
+    timeout: float | None = None,
     strict: bool = False,
 ) -> tuple[CheckSettings, RuleSet]:
     """What the options say, else the project, and the rules in force.

@@ -4,17 +4,15 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Mapping
 
 GENERIC = "AEGIS_OT_LLM_API_KEY"
 """Key for an OpenAI-compatible server that has no variable of its own."""
 
 
-def key_from(names: tuple[str, ...], environ: Mapping[str, str] | None = None) -> str:
+def key_from(names: tuple[str, ...]) -> str:
     """The first of these variables that is set, or ``""``."""
-    environ = os.environ if environ is None else environ
     for name in names:
-        value = environ.get(name, "").strip()
+        value = os.environ.get(name, "").strip()
         if value:
             return value
     return ""

@@ -35,12 +35,12 @@ _OPTIONS = {
     "export": set(),
 }
 _FILES = {"replay", "scripted", "export"}
+_LONGEST_S = 3600.0
 
 
-def record_from_environment(environ: Mapping[str, str] | None = None) -> Path | None:
+def record_from_environment() -> Path | None:
     """The folder for recordings that ``AEGIS_OT_MODEL_RECORD`` names, if any."""
-    environ = os.environ if environ is None else environ
-    folder = environ.get(RECORD_VARIABLE, "").strip()
+    folder = os.environ.get(RECORD_VARIABLE, "").strip()
     return Path(folder).expanduser() if folder else None
 
 
@@ -215,7 +215,7 @@ def _count(options: Mapping[str, str], name: str, most: int) -> int | None:
     return int(text)
 
 
-def _number(options: Mapping[str, str], name: str, default: float, most: float = 3600) -> float:
+def _number(options: Mapping[str, str], name: str, default: float) -> float:
     text = options.get(name)
     if text is None:
         return default
@@ -223,9 +223,9 @@ def _number(options: Mapping[str, str], name: str, default: float, most: float =
         value = float(text)
     except ValueError:
         value = -1.0
-    if not 0 <= value <= most or (value == 0 and name != "temperature"):
+    if not 0 <= value <= _LONGEST_S or (value == 0 and name != "temperature"):
         raise ConfigurationError(
-            f"The option {name}={text!r} must be a number more than 0, at most {most:g}."
+            f"The option {name}={text!r} must be a number more than 0, at most {_LONGEST_S:g}."
         )
     return value
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import sys
 import time
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -142,15 +141,13 @@ class VideoSource:
 
     Args:
         path: The file.
-        wait: Sleeps, s.
 
     Raises:
         CameraError: It cannot be read.
     """
 
-    def __init__(self, path: Path, wait: Callable[[float], Any] = time.sleep) -> None:
+    def __init__(self, path: Path) -> None:
         self._name = path.name
-        self._wait = wait
         self._device = _opened(str(path), cv2.CAP_ANY, f"The video {path} cannot be read.")
         rate = self._device.get(cv2.CAP_PROP_FPS)
         self._period = 1.0 / rate if 0 < rate <= 240 else 1 / 30
@@ -160,7 +157,7 @@ class VideoSource:
         """The next frame, when it is due. Raises CameraError at the video's end."""
         image = _frame(self._device, f"The video {self._name} is over.")
         self._due += self._period
-        self._wait(max(0.0, self._due - time.monotonic()))
+        time.sleep(max(0.0, self._due - time.monotonic()))
         return Raw(self._due, image=image)
 
     def close(self) -> None:
