@@ -11,6 +11,7 @@ the claim. It counts as a miss all the same. Beside it stand the exact intervals
 
 With ``--fit`` the first qualification's frames teach a lab its own limits (``aegis-ot fit --start
 shipped``; ``--own``: a scorer of its own, too), which judge further ones beside the shipped ones.
+Where a qualification teaches nothing, as no tip was found, the shipped ones stand in both places.
 All results are simulated.
 """
 
@@ -28,6 +29,7 @@ from typing import Any
 
 import numpy as np
 
+from aegis_ot.errors import DatasetError
 from aegis_ot.planted import NORMAL
 from aegis_ot.qualification.frames import write_frames
 from aegis_ot.qualification.opening import JudgedDelivery
@@ -43,6 +45,7 @@ from aegis_ot.worldmodel import fit_model
 from aegis_ot_lab.drawing.random_sessions import random_session
 
 from .qualification_claims import counted, coverage, show
+from .qualification_gain import AFTER, BEFORE, JUDGES, gain_row, show_gain
 
 PIPETTES = {"p20_single_gen2": 20.0, "p300_single_gen2": 300.0, "p1000_single_gen2": 1000.0}
 LIQUIDS = ("red", "yellow", "blue", "water")
@@ -176,38 +179,18 @@ def fitted(lab: Lab, further: int, folder: Path, start: str = "shipped") -> dict
     """The shipped limits and those fitted on a lab's first qualification, on further ones."""
     first = lab.run(0)
     frames = write_frames(folder / str(lab.seed), first.samples, "synthetic")
-    model = folder / f"{lab.seed}.model"
-    fit_model([frames], model, detector="true", measure=False, start=start)
-    told: dict[str, list[JudgedDelivery]] = {"shipped": [], "fitted": []}
+    model, is_fitted = folder / f"{lab.seed}.model", True
+    try:
+        fit_model([frames], model, detector="true", measure=False, start=start)
+    except DatasetError:  # in none of its normal wells a tip was found in every frame
+        is_fitted = False
+    told: dict[str, list[JudgedDelivery]] = {judge: [] for judge in JUDGES}
     for number in range(1, further + 1):
         run = lab.run(number)
-        told["shipped"] += run.judged()
-        told["fitted"] += run.judged(model)
-    counts = {name: counted(each, first.plan) for name, each in told.items()}
-    return {
-        "lab": f"{lab.seed}, {lab.pipette}, {lab.liquid}",
-        **{
-            name: {key: count[key] for key in ("caught", "by_kind", "normals_flagged")}
-            for name, count in counts.items()
-        },
-    }
-
-
-def show_fitted(found: Sequence[dict[str, Any]]) -> str:
-    """All laboratories together, before and after."""
-    lines = [f"{len(found)} simulated laboratories, before and after fit"]
-    kinds = dict.fromkeys(kind for lab in found for kind in lab["shipped"]["by_kind"])
-    places = [("caught", ("caught",)), *((kind, ("by_kind", kind)) for kind in kinds)]
-    for name, path in [*places, ("flagged", ("normals_flagged",))]:
-        sums = {}
-        for judge in ("shipped", "fitted"):
-            rates = [lab[judge] for lab in found]
-            for step in path:
-                rates = [rate[step] for rate in rates if step in rate]
-            sums[judge] = [sum(rate[key] for rate in rates) for key in ("hits", "of")]
-        (before, of), (after, _) = sums["shipped"], sums["fitted"]
-        lines.append(f"{name:10} {before} -> {after} of {of}")
-    return "\n".join(lines) + "\n"
+        told[BEFORE] += run.judged()
+        told[AFTER] += run.judged(model) if is_fitted else told[BEFORE][-len(run.wells) :]
+    counts = {judge: counted(each, first.plan) for judge, each in told.items()}
+    return gain_row(f"{lab.seed}, {lab.pipette}, {lab.liquid}", counts, is_fitted)
 
 
 DROP_S, LIFT_S, KEYFRAME_S, VERDICT_S = 10.0, 2.0, 0.3, 1.0
@@ -272,7 +255,7 @@ def main(arguments: list[str] | None = None) -> None:
             lab, start = Lab.drawn(given.seed + number), "" if given.own else "shipped"
             found.append(fitted(lab, given.truth, Path(folder), start))
             sys.stderr.write(f"{json.dumps(found[-1])}\n")
-    sys.stdout.write(show_fitted(found) if given.fit else show(found))
+    sys.stdout.write(show_gain(found) if given.fit else show(found))
     if given.json is not None:
         given.json.write_text(json.dumps(found, indent=1), encoding="utf-8")
 
