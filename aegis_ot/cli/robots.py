@@ -247,7 +247,7 @@ def _fails_here(protocol: Path, labware: Sequence[Path], inputs: Inputs, version
     from ..preflight.check_protocol import errors_of, rejection, summary
     from ..workbench.engines import EngineMissing, engine_for, need_of
     from ..workbench.rehearser import Rehearser, TaskFailed
-    from ..workbench.tasks import TimedCheck
+    from ..workbench.tasks import CheckTask
 
     files = {name: str(path) for name, path in inputs.files.items()}
     script = read_script(protocol, labware)
@@ -255,7 +255,7 @@ def _fails_here(protocol: Path, labware: Sequence[Path], inputs: Inputs, version
     try:
         engine = engine_for(need_of(script.text), version)
         with Rehearser(engine=engine, lasting=True) as rehearser:
-            found = rehearser.perform(TimedCheck(script, Options(), (), 120.0)).report
+            found = rehearser.perform(CheckTask(script, Options(), (), 120.0)).report
     except (EngineMissing, RehearsalError, TaskFailed) as error:
         _say(f"Layer 1 could not rehearse it here: {error}", "yellow")
         return False

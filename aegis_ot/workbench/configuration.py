@@ -31,7 +31,7 @@ import functools
 import importlib
 import os
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -150,6 +150,18 @@ def _table(path: Path) -> Any:
     return data.get("tool", {}).get("aegis-ot")
 
 
+_EXPECTED: Mapping[str, tuple[Callable[[Any], bool], str]] = {
+    "timeout": (lambda value: type(value) in (int, float), "a number of seconds"),
+    "severity": (lambda value: isinstance(value, Mapping), "a table of rules"),
+    "strict": (lambda value: isinstance(value, bool), "true or false"),
+    "baseline": (lambda value: isinstance(value, str), "a path"),
+    "model": (lambda value: isinstance(value, str) and bool(value.strip()), "a model's name"),
+}
+"""Keys that hold one thing: whether a value is of its kind, and the kind in words."""
+
+_KEYS = {*_EXPECTED, "assay", "select", "ignore", "rules", "labware", "waivers"}
+
+
 def read_configuration(table: Any, folder: Path, name: str) -> Configuration:
     """Check a parsed table.
 
@@ -164,37 +176,23 @@ def read_configuration(table: Any, folder: Path, name: str) -> Configuration:
     reader = _ConfigurationReader(name)
     if not isinstance(table, Mapping):
         raise ConfigurationError(f"{name}: [{TABLE}] must be a table.")
-    known = {
-        "assay", "select", "ignore", "rules", "labware", "baseline", "timeout", "severity",
-        "waivers", "model", "strict",
-    }  # fmt: skip
     for key in table:
-        if key not in known:
+        if key not in _KEYS:
             raise ConfigurationError(
-                f"{name}: [{TABLE}] has no key {key!r}; known are {', '.join(sorted(known))}."
+                f"{name}: [{TABLE}] has no key {key!r}; known are {', '.join(sorted(_KEYS))}."
             )
-    timeout = table.get("timeout")
-    if timeout is not None and (isinstance(timeout, bool) or not isinstance(timeout, (int, float))):
-        raise ConfigurationError(f"{name}: {TABLE}.timeout: expected a number of seconds.")
+    for key, (fits, words) in _EXPECTED.items():
+        if key in table and not fits(table[key]):
+            raise ConfigurationError(f"{name}: {TABLE}.{key}: expected {words}.")
+    timeout, baseline = table.get("timeout"), table.get("baseline")
     if timeout is not None and timeout <= 0:
         raise ConfigurationError(f"{name}: {TABLE}.timeout: must be greater than 0.")
     severity = table.get("severity", {})
-    if not isinstance(severity, Mapping):
-        raise ConfigurationError(f"{name}: {TABLE}.severity: expected a table of rules.")
     for rule, value in severity.items():
         if value not in ("error", "warning", "off"):
             raise ConfigurationError(
                 f"{name}: {TABLE}.severity.{rule}: expected error, warning or off, found {value!r}."
             )
-    strict = table.get("strict", False)
-    if not isinstance(strict, bool):
-        raise ConfigurationError(f"{name}: {TABLE}.strict: expected true or false.")
-    baseline = table.get("baseline")
-    if baseline is not None and not isinstance(baseline, str):
-        raise ConfigurationError(f"{name}: {TABLE}.baseline: expected a path.")
-    model = table.get("model")
-    if model is not None and (not isinstance(model, str) or not model.strip()):
-        raise ConfigurationError(f"{name}: {TABLE}.model: expected a model's name.")
     return Configuration(
         assay=reader.texts(table, "assay"),
         select=reader.rules(table, "select"),
@@ -203,8 +201,8 @@ def read_configuration(table: Any, folder: Path, name: str) -> Configuration:
         labware=tuple(str(folder / item) for item in reader.texts(table, "labware")),
         baseline=None if baseline is None else str(folder / baseline),
         timeout=None if timeout is None else float(timeout),
-        strict=strict,
-        model=model,
+        strict=table.get("strict", False),
+        model=table.get("model"),
         severity={str(rule).upper(): value for rule, value in severity.items()},
         waivers=reader.waivers(table.get("waivers", [])),
         folder=folder,

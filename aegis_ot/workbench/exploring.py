@@ -12,7 +12,7 @@ from ..vocabulary import Finding, Remark
 from .combinations import combinations, count_all, values_of
 from .rehearser import Rehearser, TaskFailed
 from .result import Broken, Exploration, Problem, with_findings
-from .tasks import CheckTask, Describe
+from .tasks import CheckTask, Describe, Examined
 
 CAUSES_AT_MOST = 5
 """Causes told per rule."""
@@ -56,10 +56,10 @@ def explore(
     def judge(values: Values) -> Outcome:
         there = dataclasses.replace(script, parameters={**script.parameters, **values})
         try:
-            report: Report = rehearser.perform(CheckTask(there, options, rules, timeout_s))
+            examined: Examined = rehearser.perform(CheckTask(there, options, rules, timeout_s))
         except TaskFailed as failed:
             return failed.problem
-        return report
+        return examined.report
 
     explorer = _Explorer({name: values[0] for name, values in varied.items()}, judge, default)
     if varied:

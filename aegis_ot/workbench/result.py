@@ -87,7 +87,7 @@ class CheckedProtocol:
         declared: Its runtime parameters, where values were given for some and it could be asked.
         off: Rules that the options, its guard or the project leave out.
         modules: Those from around it that its rehearsal imported, with their paths.
-        rehearsal_s: Time of the rehearsal, s, where no model was asked.
+        rehearsal_s: Time of the rehearsal, s.
         verdict_s: Time from the recording to the verdict, s.
         playback: The rehearsal as a page plays it, where that was asked for.
         unit: What the numbers of lines count: ``"line"``, or ``"command"`` where there are none.

@@ -32,7 +32,7 @@ from .result import CheckedProtocol, Problem, with_findings
 from .shelf import Definition, definitions_below, named_in, with_own_values
 from .side_by_side import LazyRehearser, RehearserPool, check_each
 from .surroundings import Placed, Surroundings, root_of, surroundings_of
-from .tasks import CheckWithDossier, Describe, Examined, TimedCheck, TimedReport
+from .tasks import CheckTask, Describe, Examined
 from .with_model import Asking, ask_model
 
 
@@ -261,33 +261,26 @@ def _judge(
 ) -> CheckedProtocol:
     """Rehearse and judge, with other parameters and with a model where that is asked for."""
     how = (script, options, settings.rules, settings.timeout_s)
-    asked = (*how, settings.playback)
-    examined: Examined | None = None
-    timed: TimedReport | None = None
-    if settings.asking is None:
-        timed = rehearser.perform(TimedCheck(*asked))
-        assert timed is not None
-        report, modules, played = timed.report, timed.modules, timed.playback
-    else:
-        examined = rehearser.perform(CheckWithDossier(*asked))
-        assert examined is not None
-        report, modules, played = examined.report, examined.modules, examined.playback
-    exploration = judgement = None
+    asked = CheckTask(*how, settings.playback, for_model=settings.asking is not None)
+    examined: Examined = rehearser.perform(asked)
+    report = examined.report
+    exploration = judgement = dossier = None
     if settings.all_parameters:
         report, exploration = explore(rehearser, *how, report)
-    if settings.asking is not None and examined is not None:
-        judgement = ask_model(settings.asking, report, examined, rule_set, options)
+    if settings.asking is not None and examined.for_model is not None:
+        dossier, recording = examined.for_model
+        judgement = ask_model(settings.asking, report, dossier, recording, rule_set, options)
         report = judgement.report
     return CheckedProtocol(
         script.file_name,
         report=report,
         exploration=exploration,
         judgement=judgement,
-        dossier=examined.dossier if examined else None,
-        modules=dict.fromkeys(modules, ""),
-        playback=played,
-        rehearsal_s=timed.rehearsal_s if timed else 0.0,
-        verdict_s=timed.verdict_s if timed else 0.0,
+        dossier=dossier,
+        modules=dict.fromkeys(examined.modules, ""),
+        playback=examined.playback,
+        rehearsal_s=examined.rehearsal_s,
+        verdict_s=examined.verdict_s,
     )
 
 

@@ -53,47 +53,41 @@ class OfScript:
 
 
 @dataclass(frozen=True)
-class _OfProtocol(OfScript):
-    """What it takes to judge a protocol."""
+class Examined:
+    """What came of checking a protocol.
 
-    script: Script
-    options: Options
-    rules: RulePaths
-    timeout_s: float
-    playback: bool = False
-
-
-@dataclass(frozen=True)
-class CheckTask(_OfProtocol):
-    """Rehearse a protocol and judge it."""
-
-    def perform(self) -> Report:
-        """Judge."""
-        from ..preflight import check_script
-
-        with standing_in_place(self.script):
-            return check_script(self.script, _rule_set(self.rules), self.options, self.timeout_s)
-
-
-@dataclass(frozen=True)
-class TimedReport:
-    """A report, what it took to come to it, s, the modules that lay around the protocol, and, if
-    that was asked for, the run as a page plays it."""
+    Attributes:
+        report: The verdict.
+        rehearsal_s: Time of the rehearsal, s.
+        verdict_s: Time from the recording to the verdict, s.
+        modules: Those around the protocol that its rehearsal imported.
+        playback: The run as a page plays it, where that was asked for.
+        for_model: What a model should know of it and the recording, where that was asked for.
+    """
 
     report: Report
     rehearsal_s: float
     verdict_s: float
     modules: tuple[str, ...] = ()
     playback: Mapping[str, Any] | None = None
+    for_model: tuple[Dossier, Recording] | None = None
 
 
 @dataclass(frozen=True)
-class TimedCheck(_OfProtocol):
+class CheckTask(OfScript):
     """Rehearse a protocol and judge it, by the clock."""
 
-    def perform(self) -> TimedReport:
+    script: Script
+    options: Options
+    rules: RulePaths
+    timeout_s: float
+    playback: bool = False
+    for_model: bool = False
+
+    def perform(self) -> Examined:
         """Judge."""
         from ..preflight import Interpretation, judge, record
+        from ..preflight.opinion import make_dossier
 
         start = time.perf_counter()
         with standing_in_place(self.script) as modules:
@@ -102,35 +96,14 @@ class TimedCheck(_OfProtocol):
         reading = Interpretation(recording, _rule_set(self.rules), self.options)
         report = judge(reading)
         seconds = time.perf_counter() - recorded
-        played = _played(reading, report) if self.playback else None
-        return TimedReport(report, recorded - start, seconds, tuple(modules), played)
-
-
-@dataclass(frozen=True)
-class Examined:
-    """A report, what a model should know of the protocol, and what both were made from."""
-
-    report: Report
-    dossier: Dossier
-    recording: Recording
-    modules: tuple[str, ...] = ()
-    playback: Mapping[str, Any] | None = None
-
-
-@dataclass(frozen=True)
-class CheckWithDossier(_OfProtocol):
-    """Rehearse a protocol, judge it, and put together what a model should know of it."""
-
-    def perform(self) -> Examined:
-        """Judge."""
-        from ..preflight.opinion import check_with_dossier
-
-        with standing_in_place(self.script) as modules:
-            report, dossier, reading = check_with_dossier(
-                self.script, _rule_set(self.rules), self.options, self.timeout_s
-            )
-        played = _played(reading, report) if self.playback else None
-        return Examined(report, dossier, reading.recording, tuple(modules), played)
+        return Examined(
+            report,
+            recorded - start,
+            seconds,
+            tuple(modules),
+            _played(reading, report) if self.playback else None,
+            (make_dossier(reading, report), recording) if self.for_model else None,
+        )
 
 
 @dataclass(frozen=True)

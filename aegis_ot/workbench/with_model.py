@@ -11,9 +11,10 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from ..preflight import Options, Report, RuleSet
-from .tasks import Examined
+from ..vocabulary import Dossier
 
 if TYPE_CHECKING:
+    from ..adapters.opentrons.rehearsal import Recording
     from ..llm import Backend, Judgement
 
 
@@ -31,20 +32,25 @@ class Asking:
 
 
 def ask_model(
-    asking: Asking, report: Report, examined: Examined, rule_set: RuleSet, options: Options
+    asking: Asking,
+    report: Report,
+    dossier: Dossier,
+    recording: Recording,
+    rule_set: RuleSet,
+    options: Options,
 ) -> Judgement:
     """Judge a protocol, already checked, with a model.
 
     Args:
         asking: Whom to ask.
         report: What the checks say.
-        examined: What the model gets to know, and the recording, which is judged again with what
-            the model reads.
+        dossier: What the model gets to know.
+        recording: Judged again with what the model reads.
         rule_set: The rules in force.
         options: How it was checked.
     """
     from ..llm import hybrid
     from ..preflight import Interpretation
 
-    reading = Interpretation(examined.recording, rule_set, options)
-    return (asking.judge or hybrid)(report, examined.dossier, reading, asking.backend)
+    reading = Interpretation(recording, rule_set, options)
+    return (asking.judge or hybrid)(report, dossier, reading, asking.backend)

@@ -15,7 +15,7 @@ from aegis_ot.preflight import Options
 from aegis_ot.workbench.files_read import signatures
 from aegis_ot.workbench.rehearser import Rehearser, TaskFailed
 from aegis_ot.workbench.surroundings import Placed
-from aegis_ot.workbench.tasks import TimedCheck
+from aegis_ot.workbench.tasks import CheckTask
 from aegis_ot.workbench.verdicts_kept import Kept, KeptVerdicts, key_of
 from aegis_ot.workbench.warm_process import WARM
 from tests.cli.test_check_command import protocol
@@ -35,9 +35,9 @@ def sockets(monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
             place.unlink()
 
 
-def task(path: Path, timeout_s: float = 60.0) -> TimedCheck:
+def task(path: Path, timeout_s: float = 60.0) -> CheckTask:
     script = Placed(path.read_text(encoding="utf-8"), path.name, folder=str(path.parent))
-    return TimedCheck(script, Options(), (), timeout_s)
+    return CheckTask(script, Options(), (), timeout_s)
 
 
 def verdict(path: Path) -> str:
