@@ -18,6 +18,4 @@ def world_model(path: Path | None = None) -> EnsembleScorer:
     own = None if path is None else load_scorer(path)
     found = own if isinstance(own, EnsembleScorer) else load_scorer(SHIPPED)
     assert isinstance(found, EnsembleScorer)
-    found.aims = (0.0,)  # of a run's wells the looks are kept, and no frames to read anew
-    found.calibrate([])
     return found

@@ -16,7 +16,7 @@ from ..vision.delivery import Delivery, delivery_of
 from ..vision.first_wells import Liquid, liquid_of
 from ..vision.scorers.looks import hang_alike
 from ..vision.scorers.looks import looks as scorer_looks
-from ..vision.scorers.patches import describe
+from ..vision.scorers.pair import pair_of
 from ..vision.tips import tip_for
 from ..vision.types import FREE, Detector, Frames, TrajectorySample
 from ..vocabulary import Keyframe, KeyframeKind
@@ -108,7 +108,7 @@ def _well(
         if found is not None
     }
     scorer_looks(sample)
-    describe(sample)
+    pair_of(sample)
     frames.clear()
     delivery = delivery_of(looks, sample.expected_ul)
     return RunWell(int(entry["trajectory"]), keyframe, entry, recorded, sample, looks, delivery)

@@ -26,7 +26,7 @@ def fit(
         typer.Argument(help="Folders: trajectory data sets, or the data folder of a sidecar."),
     ],
     out: Annotated[Path, typer.Option("--out", "-o", help="The model file to write.")],
-    scorer: Annotated[str, typer.Option(help="pca, column, patches or ensemble.")] = "ensemble",
+    scorer: Annotated[str, typer.Option(help="pca, column, pair or ensemble.")] = "ensemble",
     boxes: Annotated[
         str, typer.Option(help="detector (the shipped one), true (boxes.csv), or an .onnx file.")
     ] = "detector",

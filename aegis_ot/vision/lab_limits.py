@@ -29,7 +29,7 @@ Array = NDArray[np.float64]
 
 _SIGNS = (
     "retained", "undelivered", "gap_lit", "gap_aspirate", "gap_transit", "overfull", "underfull",
-    "absent", "patches",
+    "absent", "pair",
 )  # fmt: skip
 
 READINGS = (
@@ -42,7 +42,7 @@ as shares of the volume; how far rows speak for liquid left; how far a stretch o
 change as it leaves; whether it is seen to leave. Then the scorer's signs, and how dry the rows are
 in transit and how wet after the dispense, below heights of the full column. More is worse."""
 
-_EITHER = ("unshown", "patches")
+_EITHER = ("unshown", "pair")
 AFTER = (
     "left", "excess", "retained", "undelivered", *_EITHER,
     *(name for name in READINGS if name.startswith("wet")),

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from ..vocabulary import KeyframeKind
 from .column.trajectory import DELIVERED, LOADED
+from .types import FREE
 
 
 @dataclass(frozen=True)
@@ -35,7 +36,7 @@ SIGNS: Mapping[str, Sign] = {
         Sign("overfull", "a column that ends higher than it should", LOADED),
         Sign("underfull", "a column that ends lower than it should", LOADED),
         Sign("absent", "no colour where the full column should be", (KeyframeKind.TRANSIT,)),
-        Sign("patches", "a part of the tip that looks like no normal well's"),
+        Sign("pair", "a tip unlike normal ones before and after the dispense", FREE),
     )
 }
 """By name."""

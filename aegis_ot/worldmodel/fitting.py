@@ -24,7 +24,7 @@ from .limits import ENOUGH, FittedLimit, LimitGoal, fit_limits
 from .recorded import recorded_runs
 from .tips import find_detector, named_detector
 
-STORED = ("pca", "column", "patches", "ensemble")
+STORED = ("pca", "column", "pair", "ensemble")
 """Scorers that have a model file; the others are for comparison."""
 
 

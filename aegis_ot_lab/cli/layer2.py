@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 _SCORERS = (
     "pca, isolation-forest, one-class-svm, autoencoder, single-frame-pca, mahalanobis (the "
-    "paper's), column, patches, ensemble"
+    "paper's), column, pair, ensemble"
 )
 
 

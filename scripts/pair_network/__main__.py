@@ -1,5 +1,6 @@
 """``python -m scripts.pair_network draw OUT.npz [--plates 600] [--seed 101]``
 ``python -m scripts.pair_network train DRAWN.npz... --out NETWORK.pt [--minutes 30]``
+``python -m scripts.pair_network export NETWORK.pt OUT.onnx --told "..."``
 ``python -m scripts.pair_network score NETWORK.pt DATASET``: AUROC, the plates' first three normal
 wells left out; tips found by the shipped detector. It needs ``pip install '.[lab]' torch``.
 """
@@ -19,20 +20,31 @@ def main() -> None:
     draw.add_argument("out", type=Path)
     draw.add_argument("--plates", type=int, default=600)
     draw.add_argument("--seed", type=int, default=101)
+    draw.add_argument("--traced", action="store_true", help="by the path tracer: needs mitsuba")
     train = commands.add_parser("train")
     train.add_argument("drawn", type=Path, nargs="+")
     train.add_argument("--out", type=Path, required=True)
     train.add_argument("--minutes", type=float, default=30.0)
+    train.add_argument("--start", type=Path, help="weights to go on from")
+    train.add_argument("--hold", type=float, default=0.0, help="share before steps become smaller")
+    write = commands.add_parser("export")
+    write.add_argument("weights", type=Path)
+    write.add_argument("out", type=Path)
+    write.add_argument("--told", required=True, help="what it learned from")
     score = commands.add_parser("score")
     score.add_argument("network", type=Path)
     score.add_argument("dataset", type=Path)
     asked = parser.parse_args()
     if asked.command == "draw":
-        save(asked.out, list(draw_pairs(asked.seed, asked.plates)))
+        save(asked.out, list(draw_pairs(asked.seed, asked.plates, traced=asked.traced)))
     elif asked.command == "train":
         from .training import train_network
 
-        train_network(asked.drawn, asked.out, 60 * asked.minutes)
+        train_network(asked.drawn, asked.out, 60 * asked.minutes, asked.start, asked.hold)
+    elif asked.command == "export":
+        from .export import export
+
+        export(asked.weights, asked.out, asked.told)
     else:
         from .scoring import score_dataset
 

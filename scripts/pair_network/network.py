@@ -5,13 +5,13 @@ from __future__ import annotations
 import torch
 from torch import Tensor, nn
 
-from .strips import ROWS
+from aegis_ot.vision.scorers.pair_strips import ROWS
 
 _KEPT_ROWS = 28
 """Rows after three convolutions with strides; each tells of four rows of the strip."""
 
 
-def looks_of(frames: Tensor) -> Tensor:
+def _looks_of(frames: Tensor) -> Tensor:
     """``(n, 9, rows, columns)`` of ``(n, 2, rows, columns, 3)``, 0 to 1: both frames, and what
     changed."""
     before, after = frames[:, 0], frames[:, 1]
@@ -35,7 +35,7 @@ class PairNetwork(nn.Module):  # type: ignore[misc]  # PyTorch may be missing
     def __init__(self) -> None:
         super().__init__()
         self.rows_and_lanes = nn.Sequential(
-            _conv(9 + 9 + 3, 16),
+            _conv(9 + 9 + 4, 16),
             _conv(16, 32, (2, 2)), _conv(32, 32),
             _conv(32, 48, (2, 2)), _conv(48, 48),
             _conv(48, 64, (1, 2)), _conv(64, 64), _conv(64, 64),
@@ -50,14 +50,17 @@ class PairNetwork(nn.Module):  # type: ignore[misc]  # PyTorch may be missing
         """``(n, 2, ROWS)`` and ``(n, 2)``, logits.
 
         Args:
-            own, usual: :func:`looks_of` the pair, and of the plate's normal ones on average.
+            own, usual: ``(n, 2, ROWS, COLUMNS, 3)``, 0 to 1: both frames of the pair, and the mean
+                of the plate's normal ones.
             known: ``(n,)``: 1 where there are any.
-            tip: ``(n, 2, ROWS)``, of :class:`~.strips.Pair`.
+            tip: ``(n, 3, ROWS)``: where liquid should stand in TRANSIT, the tip's half width, and
+                where liquid should have stood in the normal ones.
         """
-        n, _, rows, columns = own.shape
+        n, _, rows, columns, _ = own.shape
         flag = known[:, None, None, None].expand(-1, 1, rows, columns)
         geometry = tip[:, :, :, None].expand(-1, -1, -1, columns)
-        seen = self.rows_and_lanes(torch.cat([own, usual * flag, flag, geometry], 1))
+        shown = torch.cat([_looks_of(own), _looks_of(usual) * flag, flag, geometry], 1)
+        seen = self.rows_and_lanes(shown.contiguous(memory_format=torch.channels_last))
         along = self.along(seen.permute(0, 1, 3, 2).reshape(n, -1, _KEPT_ROWS))
         wet = self.rows(along).reshape(n, 2, -1, _KEPT_ROWS).permute(0, 1, 3, 2)
         both = torch.cat([along.mean(2), along.amax(2)], 1)

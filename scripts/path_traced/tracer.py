@@ -83,7 +83,7 @@ class PathTracer:
         scene = self._scene(still | shapes)
         soft = self._quality.soft_px
         for outline, rays in outlines:
-            box = _covering(outline, session.size, soft)
+            box = covering(outline, session.size, soft)
             if box is None:
                 continue
             x0, y0, x1, y1 = box
@@ -92,17 +92,20 @@ class PathTracer:
             share = _inside(outline, box, soft)
             light[y0:y1, x0:x1] = share * part + (1 - share) * light[y0:y1, x0:x1]
         gain = frame_gain(session, rng)
-        image = expose(_levels(light, session) * np.float32(gain), session, rng)
+        image = expose(levels(light, session) * np.float32(gain), session, rng)
         jpeg = encode(image, session.jpeg_quality)
         tips, front = truth
         return jpeg, FrameTruth(
             state.kind, tips, front, state.dye.name, gain == session.overexposed_gain
         )
 
+    def _standing(self, session: SessionParameters) -> dict[str, Any]:
+        described = stage(session, self._lamps.get(session.seed, Lamps()), mi.ScalarTransform4f)
+        return {name: mi.load_dict(shape) for name, shape in described.items()}
+
     def _render_still(self, session: SessionParameters) -> tuple[dict[str, Any], Light]:
         """What stands still, loaded once, and the whole frame without a pipette."""
-        described = stage(session, self._lamps.get(session.seed, Lamps()), mi.ScalarTransform4f)
-        shapes = {name: mi.load_dict(shape) for name, shape in described.items()}
+        shapes = self._standing(session)
         whole = (0, 0, *session.size)
         scene = self._scene(shapes)
         return shapes, self._trace(scene, session, whole, self._quality.still, session.seed)
@@ -288,7 +291,7 @@ def _inside(outline: Floats, box: tuple[int, int, int, int], soft: int) -> Light
     return np.asarray(cv2.GaussianBlur(mask, (0, 0), soft / 2)[..., None], np.float32)
 
 
-def _covering(pixels: Floats, size: tuple[int, int], soft: int) -> tuple[int, int, int, int] | None:
+def covering(pixels: Floats, size: tuple[int, int], soft: int) -> tuple[int, int, int, int] | None:
     low = np.floor(pixels.min(axis=0)).astype(int)
     high = np.ceil(pixels.max(axis=0)).astype(int)
     x0, y0 = max(int(low[0]) - 3 * soft, 0), max(int(low[1]) - 3 * soft, 0)
@@ -297,7 +300,7 @@ def _covering(pixels: Floats, size: tuple[int, int], soft: int) -> tuple[int, in
     return (x0, y0, x1, y1) if x1 - x0 > 1 and y1 - y0 > 1 else None
 
 
-def _levels(light: Light, session: SessionParameters) -> Light:
+def levels(light: Light, session: SessionParameters) -> Light:
     """Linear light to grey levels: lens blur, gamma, light field and white balance."""
     if session.blur_px > 0.05:
         light = np.asarray(cv2.GaussianBlur(light, (0, 0), session.blur_px), np.float32)

@@ -149,7 +149,7 @@ def test_a_normal_well_stands_beside_the_well_in_question_and_signs_are_named() 
         KeyframeKind.TRANSIT: ColumnReading(100.0, 5.0),
         KeyframeKind.POST_DISPENSE: ColumnReading(0.0, math.inf, vague=True),
     }
-    signs = {"retained": 4.0, "gap_lit": 0.2, "absent": 2.0, "patches": 1.5, "new_sign": 3.0}
+    signs = {"retained": 4.0, "gap_lit": 0.2, "absent": 2.0, "pair": 1.5, "new_sign": 3.0}
     told = gate_request(replace(well, normal=case().sample, signs=signs, readings=readings))
     for one, pair in zip(alone.pictures, told.pictures, strict=True):
         widths = [
@@ -161,8 +161,8 @@ def test_a_normal_well_stands_beside_the_well_in_question_and_signs_are_named() 
     assert "left: a normal well of this run" in text
     assert (
         "strongest first: a column that is left after the dispense (pictures 3 and 4); no colour "
-        "where the full column should be (picture 2); a part of the tip that looks like no normal "
-        "well's."
+        "where the full column should be (picture 2); a tip unlike "
+        "normal ones before and after the dispense (pictures 2 and 4)."
     ) in text
     assert "break" not in text, "a sign that did not speak is not named"
     assert "Measured" not in text, "the expected volume is no measurement, nor is ± inf"

@@ -29,9 +29,9 @@ def test_the_sensors_word_on_the_source_stands_with_the_delivery(found: object, 
 
 
 def test_what_spoke_against_a_delivery_stands_with_it() -> None:
-    entry = delivery(0, evidence={"signs": {"patches": 0.4, "retained": 9.0}})
+    entry = delivery(0, evidence={"signs": {"pair": 0.4, "retained": 9.0}})
     told = seen_well("run", entry).signs
-    assert [(sign.name, nats) for sign, nats in told] == [("retained", 9.0), ("patches", 0.4)]
+    assert [(sign.name, nats) for sign, nats in told] == [("retained", 9.0), ("pair", 0.4)]
 
 
 def test_the_expected_column_is_marked_where_the_run_has_it() -> None:

@@ -11,7 +11,7 @@ from .column.drawn import normals, trajectory
 
 
 def test_no_sign_is_without_words_and_none_is_made_up() -> None:
-    assert set(SIGNS) == {*PRIORS, "patches"}
+    assert set(SIGNS) == {*PRIORS, "pair"}
     scorer = EnsembleScorer()
     scorer.fit(normals())
     assert set(scorer.signs(trajectory("n", "new", seed=91))) <= set(SIGNS)

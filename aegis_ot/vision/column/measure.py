@@ -159,13 +159,11 @@ def look_along(
     detection: TipDetection,
     tip: TipGeometry,
     seen: TipLook,
-    px: float = 0.0,
     moved: tuple[float, float] = (0.0, 0.0),
 ) -> TipLook:
     """The tip laid straight by an axis that is known: of this frame, or of one at the same place.
 
-    ``px``: the tip's end is put so much further along the tip than it was seen. ``moved``: how
-    far the tip hangs from there, px.
+    ``moved``: how far the tip hangs from there, px.
     """
     shape = seen.shape
     left, top = 0, 0
@@ -173,8 +171,6 @@ def look_along(
         image, _, (left, top) = alone(image, detection, shape_of(tip))
     there = np.subtract(moved, (left, top))
     collar, orifice = (np.add(end, there) for end in (seen.collar, seen.orifice))
-    along = orifice - collar
-    orifice = orifice + along * (px / max(float(np.hypot(*along)), 1.0))
     pixels, u, v = resample(image, collar, orifice, shape.rows, shape.half_width)
     upper, lower = ((float(x), float(y)) for x, y in (collar, orifice))
     strip = Strip(pixels, u, v, upper, lower, seen.profile.clarity)

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import copy
 import functools
-import hashlib
-import json
 from collections.abc import Sequence
 from importlib import resources
 from pathlib import Path
@@ -18,7 +16,7 @@ from numpy.typing import NDArray
 from ...errors import ModelError
 from ..types import Axis, End, Ends, Image, TipDetection
 from .decode import COLLAR, ORIFICE, Candidate, Maps, candidates, peaks
-from .session import check_image, open_session
+from .session import check_image, open_session, read_weights
 from .views import CLOSE_UP_TIP, CLOSE_UP_TOP, View, close_up, overview, row_view, upright
 
 FORMAT = "aegis-ot-tip-detector/1"
@@ -54,26 +52,7 @@ def load_weights(
         if path is None
         else Path(path).with_suffix(".json")
     )
-    try:
-        weights = model.read_bytes()
-        description = json.loads(sidecar.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise ModelError(
-            f"The tip detector cannot be read: {error}. It needs both {model.name} and "
-            f"{sidecar.name}; reinstall aegis_ot or train it anew with 'aegis-ot train detector'."
-        ) from error
-    except ValueError as error:
-        raise ModelError(f"{sidecar.name} is not valid JSON: {error}") from error
-    if not isinstance(description, dict) or description.get("format") != FORMAT:
-        found = description.get("format") if isinstance(description, dict) else description
-        raise ModelError(f"{sidecar.name} describes {found!r}; this version reads {FORMAT!r}.")
-    digest = hashlib.sha256(weights).hexdigest()
-    if digest != description.get("sha256"):
-        raise ModelError(
-            f"{model.name} is damaged or is not the file that {sidecar.name} describes: its "
-            f"SHA-256 is {digest[:12]}..., expected {str(description.get('sha256'))[:12]}..."
-        )
-    return weights, description
+    return read_weights(model, sidecar, FORMAT)
 
 
 class HeatmapDetector:

@@ -1,14 +1,49 @@
-"""Opening networks with onnxruntime."""
+"""Reading networks and opening them with onnxruntime."""
 
 from __future__ import annotations
 
-from typing import Any
+import hashlib
+import json
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import onnxruntime
 
 from ...errors import ModelError
 from ..types import Image
+
+if TYPE_CHECKING:
+    from importlib.abc import Traversable
+
+
+def read_weights(
+    model: Traversable, description: Traversable, layout: str
+) -> tuple[bytes, dict[str, Any]]:
+    """A network's file and its description beside it, in the layout that this version reads.
+
+    Raises:
+        ModelError: A file is missing, damaged, or does not belong to the other.
+    """
+    try:
+        weights = model.read_bytes()
+        told = json.loads(description.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise ModelError(
+            f"The network cannot be read: {error}. It needs both {model.name} and "
+            f"{description.name}; reinstall aegis_ot or train it anew."
+        ) from error
+    except ValueError as error:
+        raise ModelError(f"{description.name} is not valid JSON: {error}") from error
+    if not isinstance(told, dict) or told.get("format") != layout:
+        found = told.get("format") if isinstance(told, dict) else told
+        raise ModelError(f"{description.name} describes {found!r}; this version reads {layout!r}.")
+    digest = hashlib.sha256(weights).hexdigest()
+    if digest != told.get("sha256"):
+        raise ModelError(
+            f"{model.name} is damaged or is not the file that {description.name} describes: its "
+            f"SHA-256 is {digest[:12]}..., expected {str(told.get('sha256'))[:12]}..."
+        )
+    return weights, told
 
 
 def open_session(model: bytes, threads: int, what: str) -> Any:

@@ -16,7 +16,7 @@ from ..types import Scorer, TrajectorySample
 _WHERE = {
     "pca": ("pca", "PcaScorer"),
     "column": ("column", "ColumnScorer"),
-    "patches": ("patches", "PatchesScorer"),
+    "pair": ("pair", "PairScorer"),
     "ensemble": ("ensemble", "EnsembleScorer"),
 }
 

@@ -1,13 +1,12 @@
-"""The default scorer: column and patches together, as one calibrated p-value."""
+"""The default scorer: what a network says of the tip's two free frames, as a calibrated p-value."""
 
 from __future__ import annotations
 
-import copy
 import weakref
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
-from typing import Any, NamedTuple
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,84 +14,62 @@ from numpy.typing import NDArray
 from ...errors import ModelError
 from ..models import ModelFile
 from ..types import TrajectorySample
-from .aims import AIMS, aimed
 from .column import ColumnReport, ColumnScorer
-from .patches import PatchesScorer, describe
+from .pair import PairScorer
 from .surprise import NO_TIP
 
-_LEAST_SCALE = 1.0
+_LEAST_SCALE = {"column": 1.0, "pair": 0.35}
+"""Of the tail of normals: sums of surprises, nats, and log odds."""
 
 _TAIL = 0.25
-
-_OVERLAP = 0.5
-"""Weight of the patches: part of what they see, the column scorer has counted already."""
 
 
 @dataclass(frozen=True)
 class EnsembleReport:
-    """Why a trajectory has its score, as the mean of three readings.
+    """Why a trajectory has its score.
 
     Attributes:
         score: ``-log p``.
-        column: Surprises of the column, nats; the measurements are of the first reading, where the
-            detector saw the tip's end.
-        patches: Surprise of the patches, nats.
+        column: Surprises of the column, nats.
+        pair: Surprise of what the network says, nats; ``None`` where it has no pair to read.
     """
 
     score: float
     column: ColumnReport
-    patches: float
-
-
-class EnsembleReading(NamedTuple):
-    """What both scorers find where the tip's end is put in one place."""
-
-    column: ColumnReport
-    patches: float
-
-    @property
-    def total(self) -> float:
-        """Both surprises, nats."""
-        return self.column.score + _OVERLAP * self.patches
+    pair: float | None
 
 
 class EnsembleScorer:
-    """``-log p`` of column and patches together: surprises add up, as in Fisher's method.
+    """``-log p`` of what the network says of the pair; of the column where there is no pair.
 
-    The p-value of a sum x among the normals' sums is ``(1 + #{normals > x}) / (n + 1)`` in the
-    lower three quarters and follows an exponential tail above: a few dozen normals have no
+    The column's signs say in words what is seen, but add nothing to the pair's rank: on path-traced
+    cameras that neither had seen, both together ranked worse than the pair alone.
+
+    The p-value of a value x among the normals' is ``(1 + #{normals > x}) / (n + 1)`` in the lower
+    three quarters and follows an exponential tail above: a few dozen normals have no
     95th percentile of their own, and one of them may have been mislabelled. It assumes
     that this run's normals, seen in the light of its first ones, are exchangeable with the
-    normals of the fit, seen in the light of another normal of their own plate. So a score over 3
+    normals of the fit, seen in the light of others of their own plate. So a score over 3
     is a p-value under 0.05 in any run: one threshold serves all plates.
-
-    Each trajectory is read three times, with the tip's end a pixel apart (:data:`~.aims.AIMS`), and
-    the mean counts: what one reading owes to the detector's error does not stand in all of them. A
-    mean scatters less than one, so that a normal well passes 3 a little more seldom than said.
-
-    Attributes:
-        aims: The readings; ``(0.0,)`` for wells whose frames are gone.
     """
 
     name = "ensemble"
 
     def __init__(self) -> None:
         self.column = ColumnScorer()
-        self.patches = PatchesScorer()
+        self.pair = PairScorer()
         self.sums: dict[str, NDArray[np.float64]] = {}
-        self.aims: tuple[float, ...] = AIMS
-        self._by_aim = {0.0: (self.column, self.patches)}
         # The score is asked for first, then the signs that it is made of.
         self._last: tuple[weakref.ref[TrajectorySample], EnsembleReport] | None = None
 
     def fit(self, normals: Sequence[TrajectorySample]) -> None:
-        """Fit both scorers, then their sum on the normals as they will be used.
+        """Fit both scorers, and the column's sums on the normals as they will be used.
 
         Raises:
             ValueError: On an empty sequence.
         """
         self.column.fit(normals)
-        self.patches.fit(normals)
+        self.pair.fit(normals)
         plates: dict[tuple[str, str], list[TrajectorySample]] = defaultdict(list)
         for sample in normals:
             plates[sample.tip_class, sample.plate].append(sample)
@@ -101,24 +78,15 @@ class EnsembleScorer:
             for i, sample in enumerate(members):
                 other = members[(i + 1) % len(members)]
                 self.column.calibrate([other] if other is not sample else [])
-                column = self.column.report(sample).score
-                sums[name].append(column + _OVERLAP * self.patches.left_out(sample))
+                sums[name].append(self.column.report(sample).score)
         self.sums = {name: np.sort(values) for name, values in sums.items()}
         self.calibrate([])
 
     def calibrate(self, normals: Sequence[TrajectorySample]) -> None:
-        """Adapt both scorers to a run or plate, for each reading by its own."""
+        """Adapt both scorers to a run or plate."""
         self._last = None
-        # What a fit has learned is shared; what they take from the run is not.
-        self._by_aim = {
-            px: (copy.copy(self.column), copy.copy(self.patches))
-            if px
-            else (self.column, self.patches)
-            for px in self.aims
-        }
-        for px, scorers in self._by_aim.items():
-            for scorer in scorers:
-                scorer.calibrate([aimed(sample, px) for sample in normals])
+        self.column.calibrate(normals)
+        self.pair.calibrate(normals)
 
     def score(self, sample: TrajectorySample) -> float:
         """``-log p`` of one trajectory, >= 0. Raises :class:`ValueError` if not fitted."""
@@ -134,7 +102,8 @@ class EnsembleScorer:
     def signs(self, sample: TrajectorySample) -> dict[str, float]:
         """Surprises behind a score, by sign, nats."""
         report = self.report(sample)
-        return {**report.column.surprises, "patches": report.patches}
+        pair = {} if report.pair is None else {"pair": report.pair}
+        return {**report.column.surprises, **pair}
 
     def score_of_seen(self, sample: TrajectorySample) -> float:
         """The same where a frame does not show the tip, though it is on: from the others."""
@@ -142,9 +111,7 @@ class EnsembleScorer:
 
     def look_ahead(self, sample: TrajectorySample) -> None:
         """Work out what the first frames of a trajectory tell, while the last is still to come."""
-        for px in self.aims:
-            self.column.report(aimed(sample, px))
-            describe(aimed(sample, px))
+        self.column.report(sample)
 
     def report(self, sample: TrajectorySample) -> EnsembleReport:
         """Score and what stands behind it."""
@@ -153,45 +120,23 @@ class EnsembleScorer:
         return self._last[1]
 
     def _read(self, sample: TrajectorySample) -> EnsembleReport:
-        name = sample.learned_as(self.sums)
-        readings = [self.read(sample, px) for px in self._by_aim]
-        score = float(np.mean([self._surprise(one.total, name) for one in readings]))
-        column = _mean([one.column for one in readings])
-        return EnsembleReport(score, column, float(np.mean([one.patches for one in readings])))
-
-    def read(self, sample: TrajectorySample, px: float = 0.0) -> EnsembleReading:
-        """One reading, without its ``-log p``."""
-        column, patches = self._by_aim[px]
-        moved = aimed(sample, px)
-        return EnsembleReading(column.report(moved), patches.score_of_seen(moved))
+        column, reading = self.column.report(sample), self.pair.read(sample)
+        if reading is None:
+            known, value = self.sums.get(sample.learned_as(self.sums)), column.score
+            return EnsembleReport(_surprise(value, known, "column"), column, None)
+        known, value = self.pair.normals_like(sample), reading.wrong
+        pair = self.pair.surprise(sample, reading)
+        return EnsembleReport(_surprise(value, known, "pair"), column, pair)
 
     def p_value(self, sample: TrajectorySample) -> float:
         """How often a normal trajectory scores this high."""
         return float(np.exp(-self.score(sample)))
 
-    def _surprise(self, total: float, name: str) -> float:
-        known = self.sums.get(name)
-        if known is None or len(known) == 0:
-            return total
-        n = len(known)
-        start = float(np.quantile(known, 1 - _TAIL))
-        if total <= start:
-            # Linear between the normals, so that no two trajectories tie without need.
-            places = np.concatenate(([0.0], known))
-            nats = -np.log((n + 1 - np.arange(n + 1)) / (n + 1))
-            return float(min(np.interp(total, places, nats), -np.log(_TAIL)))
-        # The median excess of an exponential tail is log 2 times its scale, and does not mind
-        # one normal of the fit that was none.
-        over = known[known > start] - start
-        middle = float(np.quantile(over, 0.5, method="lower")) if len(over) else 0.0
-        scale = middle / np.log(2)
-        return float(-np.log(_TAIL) + (total - start) / max(scale, _LEAST_SCALE))
-
     def to_arrays(self) -> tuple[dict[str, NDArray[Any]], dict[str, Any]]:
         """Arrays and settings for a model file."""
         arrays: dict[str, NDArray[Any]] = {}
         settings: dict[str, Any] = {"pipettes": list(self.sums)}
-        for part in (self.column, self.patches):
+        for part in (self.column, self.pair):
             inner, its = part.to_arrays()
             arrays.update({f"{part.name}/{key}": value for key, value in inner.items()})
             settings[part.name] = its
@@ -206,9 +151,14 @@ class EnsembleScorer:
             ModelError: If arrays are missing or their shapes do not fit.
         """
         scorer = cls()
+        if "patches" in model.settings:
+            raise ModelError(
+                f"the ensemble model was made by aegis_ot {model.package}, which judged by patches "
+                "of the tip; this version reads pairs of frames: fit it anew"
+            )
         try:
             scorer.column = ColumnScorer.from_model(_part(model, "column"))
-            scorer.patches = PatchesScorer.from_model(_part(model, "patches"))
+            scorer.pair = PairScorer.from_model(_part(model, "pair"))
             scorer.sums = {
                 str(name): np.sort(np.asarray(model.arrays[f"sums/{name}"], dtype=float).ravel())
                 for name in model.settings["pipettes"]
@@ -219,13 +169,24 @@ class EnsembleScorer:
         return scorer
 
 
-def _mean(columns: Sequence[ColumnReport]) -> ColumnReport:
-    """What several readings say together. A column may glow in one alone, so signs differ."""
-    names = {name: None for one in columns for name in one.surprises}
-    surprises = {
-        name: float(np.mean([one.surprises.get(name, 0.0) for one in columns])) for name in names
-    }
-    return replace(columns[0], score=sum(surprises.values()), surprises=surprises)
+def _surprise(value: float, known: NDArray[np.float64] | None, of: str) -> float:
+    """``-log p`` of a value among those of normals (sorted)."""
+    if known is None or len(known) == 0:
+        return max(value, 0.0)
+    n = len(known)
+    start = float(np.quantile(known, 1 - _TAIL))
+    if value <= start:
+        # Linear between the normals, so that no two trajectories tie without need.
+        low = min(float(known[0]), value) - 1.0
+        places = np.concatenate(([low], known))
+        nats = -np.log((n + 1 - np.arange(n + 1)) / (n + 1))
+        return float(min(np.interp(value, places, nats), -np.log(_TAIL)))
+    # The median excess of an exponential tail is log 2 times its scale, and does not mind
+    # one normal of the fit that was none.
+    over = known[known > start] - start
+    middle = float(np.quantile(over, 0.5, method="lower")) if len(over) else 0.0
+    scale = middle / np.log(2)
+    return float(-np.log(_TAIL) + (value - start) / max(scale, _LEAST_SCALE[of]))
 
 
 def _part(model: ModelFile, name: str) -> ModelFile:

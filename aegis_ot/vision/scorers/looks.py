@@ -1,4 +1,4 @@
-"""The looks that the column and patch scorers share, taken once per frame."""
+"""The looks that the scorers share, taken once per frame."""
 
 from __future__ import annotations
 
@@ -96,23 +96,6 @@ def _measured(frames: Mapping[KeyframeKind, Image], what: Hashable) -> dict[Any,
     """What was measured in these frames before; nothing where that is not kept with them."""
     known: dict[Any, TipLook] = {}
     return frames.measured.setdefault(what, known) if isinstance(frames, Frames) else known
-
-
-def looks_beside(sample: TrajectorySample, px: float) -> Mapping[KeyframeKind, TipLook]:
-    """The looks of a sample with the tip's end put ``px`` px further along the tip in each; as they
-    are where the frames were not kept, as when a run is looked back at.
-    """
-    found = dict(looks(sample))
-    for kind, seen in found.items():
-        detection, frames = sample.detections.get(kind), sample.frames
-        if detection is not None and kind in frames:
-            beside = _measured(
-                frames, (kind, detection, sample.tip.name, seen.collar, seen.orifice)
-            )
-            if px not in beside:
-                beside[px] = look_along(frames[kind], detection, sample.tip, seen, px)
-            found[kind] = beside[px]
-    return found
 
 
 def looks(sample: TrajectorySample) -> Mapping[KeyframeKind, TipLook]:

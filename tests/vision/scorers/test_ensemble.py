@@ -1,7 +1,8 @@
-"""Column and patches as one p-value."""
+"""Pair and column as one p-value."""
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -9,9 +10,12 @@ import pytest
 
 from aegis_ot.errors import ModelError
 from aegis_ot.vision.models import ModelFile, load_model, save_model
-from aegis_ot.vision.scorers.aims import AIMS
+from aegis_ot.vision.run_scorer import RunScorer
 from aegis_ot.vision.scorers.ensemble import EnsembleScorer
 from aegis_ot.vision.scorers.surprise import MOST, NO_TIP, Tail, fit_tail
+
+from aegis_ot.vision.types import TrajectorySample
+from aegis_ot.vocabulary import KeyframeKind
 
 from ..column.drawn import normals, trajectory
 
@@ -44,18 +48,46 @@ def test_one_bad_normal_in_the_fit_does_not_blind_it() -> None:
     assert scorer.score(trajectory("f", "new", left=0.7, seed=92)) > 3
 
 
-def test_the_signs_are_of_the_readings_that_the_score_is_of(scorer: EnsembleScorer) -> None:
-    failed = trajectory("f", "new", left=0.85, seed=93)
-    readings = [scorer.read(failed, px) for px in AIMS]
-    signs = scorer.signs(failed)
-    patches = signs.pop("patches")
-    assert patches == pytest.approx(np.mean([one.patches for one in readings]))
-    for sign, nats in signs.items():
-        told = [one.column.surprises.get(sign, 0.0) for one in readings]
-        assert nats == pytest.approx(np.mean(told))
-    totals = [one.total for one in readings]
-    assert sum(signs.values()) + 0.5 * patches == pytest.approx(np.mean(totals))
-    assert max(totals) - min(totals) > 0.05, "else one reading would do"
+def test_signs_say_what_both_saw(scorer: EnsembleScorer) -> None:
+    failed = trajectory("f", "new", left=0.7, seed=93)
+    report = scorer.report(failed)
+    assert report.pair is not None
+    assert scorer.signs(failed) == {**report.column.surprises, "pair": report.pair}
+
+
+def test_without_a_pair_the_column_judges(scorer: EnsembleScorer) -> None:
+    unseen = KeyframeKind.TRANSIT
+    normal, failed = (
+        _without(trajectory("n", "new", left=left, seed=91), unseen) for left in (1.0, 0.6)
+    )
+    assert scorer.report(failed).pair is None
+    assert "pair" not in scorer.signs(failed)
+    assert scorer.score_of_seen(failed) > 3 > scorer.score_of_seen(normal)
+    assert scorer.score_of_seen(failed) > scorer.score_of_seen(normal)
+
+
+def _without(sample: TrajectorySample, kind: KeyframeKind) -> TrajectorySample:
+    return replace(sample, detections={**sample.detections, kind: None})
+
+
+def test_a_run_that_adapts_once_frames_are_gone_keeps_its_readings(
+    scorer: EnsembleScorer,
+) -> None:
+    first, failed = trajectory("first", "new", seed=90), trajectory("f", "new", left=0.8, seed=92)
+    expected = scorer.score(failed)
+    run = RunScorer(scorer, 2)
+    own = replace(first, frames=dict(first.frames))
+    run.score(own)
+    run.accept(own)
+    own.frames.clear()
+    run.adapt()
+    assert run.score(failed) == pytest.approx(expected)
+
+
+def test_a_model_of_an_earlier_version_is_refused_with_what_to_do() -> None:
+    old = ModelFile("ensemble", {}, {"pipettes": [], "patches": {}}, package="0.9")
+    with pytest.raises(ModelError, match=r"aegis_ot 0\.9.*fit it anew"):
+        EnsembleScorer.from_model(old)
 
 
 def test_no_tip(scorer: EnsembleScorer) -> None:

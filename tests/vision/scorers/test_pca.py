@@ -68,7 +68,7 @@ def test_fewer_samples_than_components_are_no_obstacle() -> None:
 
 
 def test_an_unknown_scorer_is_refused_with_the_choices() -> None:
-    with pytest.raises(ConfigurationError, match="patches, ensemble"):
+    with pytest.raises(ConfigurationError, match="pair, ensemble"):
         make_scorer("magic")
 
 
