@@ -37,7 +37,7 @@ def test_each_robots_tips_have_a_model_of_their_own() -> None:
 def test_the_ensemble_keeps_them_apart_too() -> None:
     scorer = EnsembleScorer()
     scorer.fit([*wells("p1000", 300.0), *wells("flex_1channel_1000", 300.0)])
-    assert set(scorer.sums) == set(scorer.patches.banks) == {"p1000", "flex_1000"}
+    assert set(scorer.sums) == set(scorer.pair.known) == {"p1000", "flex_1000"}
     assert set(RunScorer(scorer, 6).height_factors) == {"ot2_1000", "flex_1000"}
     assert np.isfinite(scorer.score(wells("flex_1channel_1000", 300.0, 1)[0]))
 

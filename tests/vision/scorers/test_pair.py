@@ -6,6 +6,7 @@ import json
 from dataclasses import replace
 from pathlib import Path
 
+import cv2
 import numpy as np
 import pytest
 
@@ -110,10 +111,10 @@ def test_neighbours_of_a_row_are_painted_over() -> None:
     sample = trajectory("n", seed=91)
     frames = {kind: frame.copy() for kind, frame in sample.frames.items()}
     for frame in frames.values():
-        frame[30:230, 183:190] = (0, 0, 255)
+        cv2.line(frame, (174, 40), (180, 225), (0, 0, 255), 3)  # parallel to the tip
     tip = sample.detections[FREE[0]]
     assert tip is not None
-    row = dict.fromkeys(KeyframeKind, replace(tip, apart=24.0))
+    row = dict.fromkeys(KeyframeKind, replace(tip, apart=14.0))
     alone = _pair(replace(sample, frames=frames, detections=row))
     beside = _pair(replace(sample, frames=frames))
     red = np.array((0.0, 0.0, 1.0))
