@@ -42,6 +42,7 @@ _OF_WELL = np.array((0.004, 0.006, 0.004, 0.004))
 _OF_FRAME = np.full(4, 0.003)
 """How far the ends of an axis are off, tip lengths: orifice across and along, collar likewise."""
 
+
 @dataclass(frozen=True)
 class Pair:
     """A delivery's two free frames.
@@ -70,9 +71,7 @@ def of_tip(tip: TipGeometry, volume_ul: float) -> Floats:
     return np.stack([wet_rows(tip, ((0.0, volume_ul),)), half_widths(tip)])
 
 
-Render = Callable[
-    [SceneState, SessionParameters, np.random.Generator], tuple[bytes, FrameTruth]
-]
+Render = Callable[[SceneState, SessionParameters, np.random.Generator], tuple[bytes, FrameTruth]]
 
 
 def draw_pairs(seed: int, plates: int, wells: int = 10, *, traced: bool = False) -> Iterator[Pair]:

@@ -13,7 +13,6 @@ from aegis_ot.vision.models import ModelFile, load_model, save_model
 from aegis_ot.vision.run_scorer import RunScorer
 from aegis_ot.vision.scorers.ensemble import EnsembleScorer
 from aegis_ot.vision.scorers.surprise import MOST, NO_TIP, Tail, fit_tail
-
 from aegis_ot.vision.types import TrajectorySample
 from aegis_ot.vocabulary import KeyframeKind
 
