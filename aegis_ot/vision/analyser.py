@@ -305,7 +305,9 @@ class RunAnalyser:
             stream.cascade.learn(case.score, normal=normal, volume_ul=volume)
         if normal:
             self._first.learn(well.liquid, case)
-            stream.learn(case.sample, looks, case.score is not None)
+            # What passed outside the band for want of proof is no example of a normal well.
+            proven = case.route is not Route.GREY_ZONE or decision.gate.traits.is_person
+            stream.learn(case.sample, looks, proven and case.score is not None)
 
     def _sample(self, seen: OpenTrajectory) -> TrajectorySample:
         return seen.sample(self.run)

@@ -173,10 +173,14 @@ class RunCalibration:
         return Standing(z, band[0] <= score <= band[1])
 
     def accept(self, score: float) -> None:
-        """A later well was judged normal: a streaming band learns from it."""
-        if not self.settings.streaming or self.state is not CalibrationState.READY:
+        """A later well was judged normal: a streaming band learns from it.
+
+        One outside the band that passed for want of proof counts as its edge: it may be no normal
+        one, and must not make the next one look usual.
+        """
+        if not self.settings.streaming or self.band is None:
             return
-        self._recent.append(float(score))
+        self._recent.append(float(min(score, self.band[1])))
         del self._recent[: -self.settings.memory]
         # The first wells stay until enough accepted ones replace them: accepted wells are cut
         # off at the band's edge, and a band learned from them alone would only ever shrink.
