@@ -67,10 +67,13 @@ def train_network(
             optimiser.zero_grad()
             loss.backward()
             optimiser.step()
-        told = score_pairs(network, data, np.flatnonzero(held_out), normals)
+        shown = np.flatnonzero(held_out)
+        told, alone = (score_pairs(network, data, shown, beside) for beside in (normals, {}))
         water = data["reagent"] == "water"
         for name, part in (("dyes", held_out & ~water), ("water", held_out & water)):
-            print(f"{spent:.0f} s: {name} {auroc(told[part[held_out]], data['failure'][part])}")
+            wrong = data["failure"][part]
+            beside, by_itself = (auroc(one[part[held_out]], wrong) for one in (told, alone))
+            print(f"{spent:.0f} s: {name} {beside}; without normal pairs {by_itself}")
         torch.save(network.state_dict(), out)
 
 

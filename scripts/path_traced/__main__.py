@@ -1,11 +1,14 @@
 """Render a trajectory data set of several kinds of camera by path tracing.
 
 ``python -m scripts.path_traced OUT [--kind NAME]... [--plates 4] [--seed 1]``
+``python -m scripts.path_traced OUT --mixed [--seed 1]``
 ``python -m scripts.path_traced OUT --for-detector N [--rows] [--sleeves] [--seed 1]``
 
 It needs ``pip install mitsuba`` beside ``aegis-ot[sidecar]``; a plate of twelve wells
 takes a minute or two. ``meta.json`` names the kind of each plate, which
-``aegis-ot evaluate layer2 OUT --leave-out camera`` leaves out as a whole. ``--for-detector``
+``aegis-ot evaluate layer2 OUT --leave-out camera`` leaves out as a whole. ``--mixed`` renders two
+plates of each of all ten kinds, one after the other with other pipettes and liquids.
+``--for-detector``
 renders instead N plates of three wells, each before a camera of its own and the last without a
 tip: for ``aegis-ot train detector``; ``--sleeves``: of tips whose upper part is a sleeve, as real
 ones' is. ``--rows``: of eight tips each, whose axes stand in ``axes.csv``.
@@ -56,24 +59,31 @@ def main() -> None:
         metavar="N",
         help="cameras, instead of plates of kinds",
     )
+    parser.add_argument("--mixed", action="store_true", help="two plates of all ten kinds")
     parser.add_argument("--rows", action="store_true", help="of eight tips, for the detector")
     parser.add_argument("--sleeves", action="store_true", help="on the tips, for the detector")
     asked = parser.parse_args()
     if asked.for_detector and asked.kind:
         parser.error("--for-detector draws its own cameras: leave --kind out")
+    if asked.mixed and (asked.for_detector or asked.kind):
+        parser.error("--mixed renders all ten kinds: leave --kind and --for-detector out")
     if (asked.rows or asked.sleeves) and not asked.for_detector:
         parser.error("--rows and --sleeves say what --for-detector N renders: name that too")
     rng = np.random.default_rng((asked.seed, 31))
     plates, plan, lamps, cameras, sleeves = [], [], {}, {}, {}
-    for name in () if asked.for_detector else asked.kind or KINDS:
-        for number in range(asked.plates):
-            plate, light = _plate(name, kinds[name], number, rng)
-            plan += _wells(len(plates), number, rng)
-            plates.append(plate)
-            lamps[plate.session.seed] = light
-            if kinds[name].sleeves:
-                sleeves[plate.session.seed] = Sleeve.draw(rng)
-            cameras[plate.name] = name
+    if asked.mixed:
+        wanted = [(name, at + turn) for turn in (0, 1) for at, name in enumerate(kinds)]
+    else:
+        named = () if asked.for_detector else asked.kind or KINDS
+        wanted = [(name, number) for name in named for number in range(asked.plates)]
+    for name, number in wanted:
+        plate, light = _plate(name, kinds[name], number, rng)
+        plan += _wells(len(plates), number, rng)
+        plates.append(plate)
+        lamps[plate.session.seed] = light
+        if kinds[name].sleeves:
+            sleeves[plate.session.seed] = Sleeve.draw(rng)
+        cameras[plate.name] = name
     for number in range(asked.for_detector):
         kind = any_row(rng) if asked.rows else any_kind(rng)
         plate, light = _plate("row" if asked.rows else "any", kind, number, rng)
