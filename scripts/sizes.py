@@ -9,7 +9,7 @@ ROOT = Path(__file__).resolve().parents[1]
 BUDGETS = {
     "aegis_ot": 78_000,
     "aegis_ot_lab": 10_500,
-    "aegis_ot/preflight": 11_000,
+    "aegis_ot/preflight": 11_080,
     "aegis_ot/vision": 13_050,
     "aegis_ot/sidecar": 9_150,
     "aegis_ot/runtime": 4_140,

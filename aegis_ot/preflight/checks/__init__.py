@@ -5,29 +5,51 @@ A rule file names a check and gives its parameters; no rule has code of its own.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
-from importlib import import_module
 from typing import Any
 
 from ...errors import RuleError
 from ..rules import read_dataclass
+from .carry import Carry
 from .check import Check, Doubt, Violation
+from .dilution import SeriesDirection, SeriesMixed, SeriesTip
+from .dose_order import DoseOrder
+from .drawn_off import DrawnOffBefore, WasteStays
+from .emptied import NothingFromNothing, StockSuffices
+from .filling import SeriesFilledFirst, SeriesFilledFrom
+from .handling import TipAboveBottom, TipsOverWells
+from .order import MixedAfter, ReceivedBefore, RisingOrder
+from .range import VolumeInRange
+from .receiving import NeverReceives, Receives
 from .rule_context import RuleContext
-
-_ROOMS = (
-    "carry receiving uniform_volume order drawn_off dose_order dilution filling volumes "
-    "handling range written emptied"
-)
+from .uniform_volume import UniformVolume
+from .volumes import VolumeBookkeeping
+from .written import WrittenIsMoved
 
 CHECKS: dict[str, type[Check]] = {
-    re.sub(r"(?<=[a-z])(?=[A-Z])", "_", name).lower(): check
-    for room in (import_module(f".{name}", __name__) for name in _ROOMS.split())
-    for name, check in vars(room).items()
-    if getattr(check, "__module__", "") == room.__name__
-    if isinstance(check, type) and issubclass(check, Check) and name != "SeriesCheck"
+    "carry": Carry,
+    "dose_order": DoseOrder,
+    "receives": Receives,
+    "never_receives": NeverReceives,
+    "uniform_volume": UniformVolume,
+    "mixed_after": MixedAfter,
+    "received_before": ReceivedBefore,
+    "drawn_off_before": DrawnOffBefore,
+    "waste_stays": WasteStays,
+    "rising_order": RisingOrder,
+    "series_mixed": SeriesMixed,
+    "series_direction": SeriesDirection,
+    "series_filled_first": SeriesFilledFirst,
+    "series_filled_from": SeriesFilledFrom,
+    "series_tip": SeriesTip,
+    "volume_bookkeeping": VolumeBookkeeping,
+    "tips_over_wells": TipsOverWells,
+    "tip_above_bottom": TipAboveBottom,
+    "volume_in_range": VolumeInRange,
+    "written_is_moved": WrittenIsMoved,
+    "nothing_from_nothing": NothingFromNothing,
+    "stock_suffices": StockSuffices,
 }
-"""Each check by its class's name: ``mixed_after`` is :class:`MixedAfter`."""
 
 
 def make_check(data: Mapping[str, Any], where: str) -> Check:
