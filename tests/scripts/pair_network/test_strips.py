@@ -6,8 +6,9 @@ from pathlib import Path
 
 import numpy as np
 
+from aegis_ot.vision.scorers.pair_strips import COLUMNS, ROWS, U, wet_rows
 from aegis_ot.vision.tips import TIPS
-from scripts.pair_network.strips import COLUMNS, ROWS, U, draw_pairs, save, wet_rows
+from scripts.pair_network.strips import draw_pairs, save
 
 
 def test_liquid_stands_from_the_orifice_up_to_its_volume() -> None:
