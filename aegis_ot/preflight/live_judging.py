@@ -18,6 +18,7 @@ from ..adapters.opentrons.instrumentation import (
     LabwareInfo,
     NameBinding,
     Operation,
+    OperationKind,
 )
 from ..adapters.opentrons.rehearsal import Comparison, Record, Recorder, Recording, RunPlan
 from ..errors import AegisError
@@ -33,7 +34,14 @@ GUARD = "aegis_ot: "
 _FREE_S = 5.0
 """So long judging may take in all before it has to keep to its share of the run, s."""
 _SHARE = 0.1
-_ENTERS = ("aspirate", "dispense", "blow_out", "touch_tip")
+_ENTERS = frozenset(
+    {
+        OperationKind.ASPIRATE,
+        OperationKind.DISPENSE,
+        OperationKind.BLOW_OUT,
+        OperationKind.TOUCH_TIP,
+    }
+)
 
 
 @dataclass(frozen=True)

@@ -27,7 +27,7 @@ def family_schema() -> dict[str, Any]:
 
 def _checks() -> list[dict[str, Any]]:
     described = []
-    for name, check in CHECKS.items():
+    for name, check in sorted(CHECKS.items()):
         schema = json_schema(check)
         schema.pop("$schema")
         schema["properties"]["check"] = {"const": name}

@@ -1,6 +1,4 @@
-"""A trial: a small network that reads a tip's two free frames side by side.
+"""How the shipped pair network was made: it reads a tip before and after its dispense.
 
-``python -m scripts.pair_network --help``. Nothing of the product uses it yet: it asks whether a
-network that has learned from drawn plates alone ranks wells of another renderer's cameras better
-than the judge's own looks do.
+``python -m scripts.pair_network --help``; what uses it is ``aegis_ot.vision.scorers.pair``.
 """

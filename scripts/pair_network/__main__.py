@@ -1,8 +1,9 @@
 """``python -m scripts.pair_network draw OUT.npz [--plates 600] [--seed 101]``
 ``python -m scripts.pair_network train DRAWN.npz... --out NETWORK.pt [--minutes 30]``
-``python -m scripts.pair_network export NETWORK.pt OUT.onnx --told "..."``
-``python -m scripts.pair_network score NETWORK.pt DATASET``: AUROC, the plates' first three normal
-wells left out; tips found by the shipped detector. It needs ``pip install '.[lab]' torch``.
+``python -m scripts.pair_network export NETWORK.pt OUT.onnx --learned-from "..."``
+
+It needs ``pip install '.[train]'``, and mitsuba for ``--traced``. How the network ranks a data set
+says ``aegis-ot evaluate layer2 DATASET --scorer pair``.
 """
 
 from __future__ import annotations
@@ -30,10 +31,7 @@ def main() -> None:
     write = commands.add_parser("export")
     write.add_argument("weights", type=Path)
     write.add_argument("out", type=Path)
-    write.add_argument("--told", required=True, help="what it learned from")
-    score = commands.add_parser("score")
-    score.add_argument("network", type=Path)
-    score.add_argument("dataset", type=Path)
+    write.add_argument("--learned-from", required=True, help="for the description")
     asked = parser.parse_args()
     if asked.command == "draw":
         save(asked.out, list(draw_pairs(asked.seed, asked.plates, traced=asked.traced)))
@@ -41,14 +39,10 @@ def main() -> None:
         from .training import train_network
 
         train_network(asked.drawn, asked.out, 60 * asked.minutes, asked.start, asked.hold)
-    elif asked.command == "export":
+    else:
         from .export import export
 
-        export(asked.weights, asked.out, asked.told)
-    else:
-        from .scoring import score_dataset
-
-        score_dataset(asked.network, asked.dataset)
+        export(asked.weights, asked.out, asked.learned_from)
 
 
 if __name__ == "__main__":

@@ -68,12 +68,13 @@ def train_network(
             loss.backward()
             optimiser.step()
         shown = np.flatnonzero(held_out)
-        told, alone = (score_pairs(network, data, shown, beside) for beside in (normals, {}))
+        with_normals = score_pairs(network, data, shown, normals)
+        without = score_pairs(network, data, shown, {})
         water = data["reagent"] == "water"
         for name, part in (("dyes", held_out & ~water), ("water", held_out & water)):
             wrong = data["failure"][part]
-            beside, by_itself = (auroc(one[part[held_out]], wrong) for one in (told, alone))
-            print(f"{spent:.0f} s: {name} {beside}; without normal pairs {by_itself}")
+            figures = [auroc(odds[part[held_out]], wrong) for odds in (with_normals, without)]
+            print(f"{spent:.0f} s: {name} {figures[0]}; without normal pairs {figures[1]}")
         torch.save(network.state_dict(), out)
 
 
@@ -103,13 +104,13 @@ def _loss(
     shown = _varied(torch.from_numpy(data["frames"][frames]).float(), half_width)
     flag = torch.tensor(known, dtype=torch.float32)
     tip = _geometry(data["tip"][batch], data["tip"][np.array(chosen)].mean(1), flag)
-    wet, told = network(shown[:, 0], shown[:, 1:].mean(1), flag, tip)
+    wet, odds = network(shown[:, 0], shown[:, 1:].mean(1), flag, tip)
     wrong = torch.from_numpy((data["failure"][batch] != "").astype(np.float32))
     kept = torch.from_numpy(data["kept"][batch])
     loss: Tensor = (
         F.binary_cross_entropy_with_logits(wet, torch.from_numpy(data["wet"][batch]).clamp(0, 1))
-        + 0.7 * F.binary_cross_entropy_with_logits(told[:, 0], wrong)
-        + 0.3 * F.binary_cross_entropy_with_logits(told[:, 1], kept)
+        + 0.7 * F.binary_cross_entropy_with_logits(odds[:, 0], wrong)
+        + 0.3 * F.binary_cross_entropy_with_logits(odds[:, 1], kept)
     )
     return loss
 

@@ -90,6 +90,16 @@ def test_streaming_follows_a_slow_drift() -> None:
     assert moving.standing(16.0).inside
 
 
+def test_a_well_outside_the_band_that_passed_counts_as_its_edge() -> None:
+    run = calibrated(CalibrationSettings())
+    assert run.band is not None
+    edge = run.band[1]
+    run.accept(100.0)
+    assert run.normals[-1] == pytest.approx(edge)
+    run.accept(10.1)
+    assert run.normals[-1] == 10.1
+
+
 def test_wrong_settings_are_named() -> None:
     with pytest.raises(ConfigurationError, match="multiplier"):
         CalibrationSettings(multiplier=-1)

@@ -21,7 +21,7 @@ from aegis_ot.vision.registration import Located, ProjectedTip, TipLocator
 from aegis_ot.vision.run_analyser_factory import Judged, MonitorSettings, RunAnalyserFactory
 from aegis_ot.vision.second_opinion import SpotCheck
 from aegis_ot.vision.tips import tip_for
-from aegis_ot.vision.types import Image, TipDetection
+from aegis_ot.vision.types import Image, TipDetection, TrajectorySample
 from aegis_ot.vocabulary import (
     FailureType,
     Gate,
@@ -168,6 +168,51 @@ def test_planted_faults_are_caught_and_confirmed_by_the_gate(run, number, failur
     assert verdict.gate is Gate.VOLUMETRIC
     assert verdict.failure in failures
     assert verdict.reason
+
+
+class ScoredByWell:
+    """A world model whose scores are written down, and that remembers what it adapted to."""
+
+    name = "ensemble"
+    height_factors: Mapping[str, float] = {}
+    adapted: set[str]
+
+    def __init__(self, scores: Mapping[str, float]) -> None:
+        self.scores, self.adapted = scores, set()
+
+    def __deepcopy__(self, memo: object) -> ScoredByWell:
+        return self  # a run works on a copy, which nobody could look at
+
+    def fit(self, normals: Sequence[TrajectorySample]) -> None:
+        pass
+
+    def score(self, sample: TrajectorySample) -> float:
+        return self.scores.get(sample.well, 0.5)
+
+    score_of_seen = score
+
+    def p_value(self, sample: TrajectorySample) -> float:
+        return float(np.exp(-self.score(sample)))
+
+    def calibrate(self, normals: Sequence[TrajectorySample]) -> None:
+        self.adapted.update(sample.well for sample in normals)
+
+    def look_ahead(self, sample: TrajectorySample) -> None:
+        pass
+
+    def signs(self, sample: TrajectorySample) -> Mapping[str, float]:
+        return {}
+
+
+def test_what_passed_for_want_of_proof_is_no_example_of_a_normal_well() -> None:
+    scorer = ScoredByWell({"G1": 5.0})
+    judged = judge_run(
+        12, reagent="water", operator=True, monitor=lambda found: RunAnalyserFactory(found, scorer)
+    )
+    verdict = judged[6][0]
+    assert (verdict.route, verdict.outcome) == (Route.GREY_ZONE, Outcome.PASS)
+    assert {"A1", "F1", "H1"} <= scorer.adapted
+    assert "G1" not in scorer.adapted
 
 
 @pytest.mark.parametrize("outcome", [Outcome.PASS, Outcome.FAIL])

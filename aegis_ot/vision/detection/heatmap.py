@@ -52,7 +52,8 @@ def load_weights(
         if path is None
         else Path(path).with_suffix(".json")
     )
-    return read_weights(model, sidecar, FORMAT)
+    remedy = "reinstall aegis_ot or train it anew with 'aegis-ot train detector'"
+    return read_weights(model, sidecar, FORMAT, remedy)
 
 
 class HeatmapDetector:

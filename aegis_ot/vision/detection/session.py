@@ -17,33 +17,39 @@ if TYPE_CHECKING:
 
 
 def read_weights(
-    model: Traversable, description: Traversable, layout: str
+    model: Traversable, description: Traversable, layout: str, remedy: str = "reinstall aegis_ot"
 ) -> tuple[bytes, dict[str, Any]]:
-    """A network's file and its description beside it, in the layout that this version reads.
+    """A network's file and its description, in the layout that this version reads.
+
+    Args:
+        model: The ``.onnx`` file.
+        description: The ``.json`` file that belongs to it.
+        layout: Format of the description.
+        remedy: What to do where a file cannot be read.
 
     Raises:
         ModelError: A file is missing, damaged, or does not belong to the other.
     """
     try:
         weights = model.read_bytes()
-        told = json.loads(description.read_text(encoding="utf-8"))
+        content = json.loads(description.read_text(encoding="utf-8"))
     except OSError as error:
         raise ModelError(
             f"The network cannot be read: {error}. It needs both {model.name} and "
-            f"{description.name}; reinstall aegis_ot or train it anew."
+            f"{description.name}; {remedy}."
         ) from error
     except ValueError as error:
         raise ModelError(f"{description.name} is not valid JSON: {error}") from error
-    if not isinstance(told, dict) or told.get("format") != layout:
-        found = told.get("format") if isinstance(told, dict) else told
-        raise ModelError(f"{description.name} describes {found!r}; this version reads {layout!r}.")
+    if not isinstance(content, dict) or content.get("format") != layout:
+        other = content.get("format") if isinstance(content, dict) else content
+        raise ModelError(f"{description.name} describes {other!r}; this version reads {layout!r}.")
     digest = hashlib.sha256(weights).hexdigest()
-    if digest != told.get("sha256"):
+    if digest != content.get("sha256"):
         raise ModelError(
             f"{model.name} is damaged or is not the file that {description.name} describes: its "
-            f"SHA-256 is {digest[:12]}..., expected {str(told.get('sha256'))[:12]}..."
+            f"SHA-256 is {digest[:12]}..., expected {str(content.get('sha256'))[:12]}..."
         )
-    return weights, told
+    return weights, content
 
 
 def open_session(model: bytes, threads: int, what: str) -> Any:

@@ -15,11 +15,11 @@ from ...errors import ModelError
 from ..models import ModelFile
 from ..types import TrajectorySample
 from .column import ColumnReport, ColumnScorer
-from .pair import PairScorer
+from .pair import PairScorer, surprise_of
 from .surprise import NO_TIP
 
-_LEAST_SCALE = {"column": 1.0, "pair": 0.35}
-"""Of the tail of normals: sums of surprises, nats, and log odds."""
+_LEAST_NATS, _LEAST_ODDS = 1.0, 0.35
+"""Least scale of the tail of normals: of sums of surprises, nats, and of log odds."""
 
 _TAIL = 0.25
 
@@ -123,10 +123,10 @@ class EnsembleScorer:
         column, reading = self.column.report(sample), self.pair.read(sample)
         if reading is None:
             known, value = self.sums.get(sample.learned_as(self.sums)), column.score
-            return EnsembleReport(_surprise(value, known, "column"), column, None)
+            return EnsembleReport(_surprise(value, known, _LEAST_NATS), column, None)
         known, value = self.pair.normals_like(sample), reading.wrong
-        pair = self.pair.surprise(sample, reading)
-        return EnsembleReport(_surprise(value, known, "pair"), column, pair)
+        score = _surprise(value, known, _LEAST_ODDS)
+        return EnsembleReport(score, column, surprise_of(reading, known))
 
     def p_value(self, sample: TrajectorySample) -> float:
         """How often a normal trajectory scores this high."""
@@ -169,7 +169,7 @@ class EnsembleScorer:
         return scorer
 
 
-def _surprise(value: float, known: NDArray[np.float64] | None, of: str) -> float:
+def _surprise(value: float, known: NDArray[np.float64] | None, least_scale: float) -> float:
     """``-log p`` of a value among those of normals (sorted)."""
     if known is None or len(known) == 0:
         return max(value, 0.0)
@@ -186,7 +186,7 @@ def _surprise(value: float, known: NDArray[np.float64] | None, of: str) -> float
     over = known[known > start] - start
     middle = float(np.quantile(over, 0.5, method="lower")) if len(over) else 0.0
     scale = middle / np.log(2)
-    return float(-np.log(_TAIL) + (value - start) / max(scale, _LEAST_SCALE[of]))
+    return float(-np.log(_TAIL) + (value - start) / max(scale, least_scale))
 
 
 def _part(model: ModelFile, name: str) -> ModelFile:

@@ -1,4 +1,4 @@
-"""A tip before and after its dispense, read by a network beside the run's own normal wells.
+"""A tip before and after its dispense, compared by a network with the run's own normal wells.
 
 The network has learned from drawn and path-traced tips before cameras of all kinds
 (``scripts/pair_network``), and nothing from any laboratory: what this camera's tips look like it is
@@ -32,8 +32,8 @@ FORMAT = "aegis-ot-pair-network/1"
 _PRIOR = Tail(0.0, 0.7)
 """Log odds at which something is as likely wrong as not."""
 
-_BESIDE = 3
-"""Normal wells of its plate beside which a normal well of a fit is read, as in a run."""
+_REFERENCES = 3
+"""Normal wells of its plate with which a normal well of a fit is compared, as in a run."""
 
 _HELD_BACK = 0.05
 """Share of the drawn volume that may be meant to stay in the tip: the network knows tips that are
@@ -109,7 +109,7 @@ def _strip(sample: TrajectorySample, kind: KeyframeKind) -> NDArray[np.uint8]:
 
 
 def read_pair(pair: Pair, normals: Sequence[Pair] = ()) -> PairReading:
-    """Read a pair beside normal ones; without any, by itself.
+    """Compare a pair with normal ones; without any, read it by itself.
 
     Raises:
         ModelError: The network's file is missing or damaged.
@@ -124,15 +124,20 @@ def read_pair(pair: Pair, normals: Sequence[Pair] = ()) -> PairReading:
         "known": np.array([flag]),
         "tip": np.stack([pair.liquid, pair.half_width, liquid]).astype(np.float32)[None],
     }
-    wet, told = _network().run(["wet", "told"], given)
-    return PairReading(float(told[0, 0]), float(told[0, 1]), wet[0])
+    wet, odds = _network().run(["wet", "odds"], given)
+    return PairReading(float(odds[0, 0]), float(odds[0, 1]), wet[0])
+
+
+def surprise_of(reading: PairReading, known: NDArray[np.float64]) -> float:
+    """How unusual a reading is among the log odds of normals, nats."""
+    return fit_tail(known.tolist(), _PRIOR).surprise(reading.wrong)
 
 
 class PairScorer:
     """Surprise of what the network says among the normals of a fit, nats.
 
     Attributes:
-        known: Log odds of the normals of a fit, each beside others of its plate, by class of tip.
+        known: Log odds of a fit's normals, each compared with others of its plate, by class of tip.
     """
 
     name = "pair"
@@ -154,16 +159,16 @@ class PairScorer:
             pair = pair_of(sample)
             if pair is not None:
                 plates[sample.tip_class, sample.plate].append(pair)
-        told: dict[str, list[float]] = defaultdict(list)
+        odds: dict[str, list[float]] = defaultdict(list)
         for (name, _), pairs in plates.items():
             for at, pair in enumerate(pairs):
-                others = [*pairs[at + 1 :], *pairs[:at]][:_BESIDE]
-                told[name].append(read_pair(pair, others).wrong)
-        self.known = {name: np.sort(values) for name, values in told.items()}
+                others = [*pairs[at + 1 :], *pairs[:at]][:_REFERENCES]
+                odds[name].append(read_pair(pair, others).wrong)
+        self.known = {name: np.sort(values) for name, values in odds.items()}
         self._normals = []
 
     def calibrate(self, normals: Sequence[TrajectorySample]) -> None:
-        """Read what comes beside a run's own normal wells."""
+        """Compare what comes with a run's own normal wells."""
         self._normals = [pair for pair in map(pair_of, normals) if pair is not None]
 
     def score(self, sample: TrajectorySample) -> float:
@@ -171,11 +176,7 @@ class PairScorer:
         if sample.lacks_tip:
             return NO_TIP
         reading = self.read(sample)
-        return 0.0 if reading is None else self.surprise(sample, reading)
-
-    def surprise(self, sample: TrajectorySample, reading: PairReading) -> float:
-        """How unusual a reading of this trajectory is, nats."""
-        return fit_tail(self.normals_like(sample).tolist(), _PRIOR).surprise(reading.wrong)
+        return 0.0 if reading is None else surprise_of(reading, self.normals_like(sample))
 
     def normals_like(self, sample: TrajectorySample) -> NDArray[np.float64]:
         """Log odds of the fit's normals with such a tip; of all where it had none, for the network
@@ -184,7 +185,7 @@ class PairScorer:
         return np.sort(np.concatenate([*self.known.values(), []])) if known is None else known
 
     def read(self, sample: TrajectorySample) -> PairReading | None:
-        """What the network says of a trajectory beside the run's normal wells."""
+        """What the network says of a trajectory, compared with the run's normal wells."""
         pair = pair_of(sample)
         return None if pair is None else read_pair(pair, self._normals)
 
