@@ -191,8 +191,8 @@ class RunAnalyser:
                 normal, volume = bool(known["normal"]), float(known["volume_ul"])
                 strength, left = known.get("strength"), known.get("left")
                 unbroken = known.get("unbroken")
-                if left is not None:
-                    self._leftovers.restore(pipette.split()[0], Leftover(**left))
+                held = None if left is None else Leftover(**left)
+                self._leftovers.restore(pipette.split()[0], held)
             except (KeyError, TypeError, ValueError, AttributeError, IndexError):
                 continue
             if normal and isinstance(strength, float):

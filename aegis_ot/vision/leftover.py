@@ -61,6 +61,9 @@ class Leftovers:
         """A well was judged: if liquid stayed in the tip, it is known from now on."""
         if decision.outcome is Outcome.PASS:
             return
+        if decision.failure is FailureType.NO_TIP:
+            self._of.pop(keyframe.mount, None)
+            return
         if case.seems_left:
             self._doubted[keyframe.mount] = keyframe.tip
         before = self.known(keyframe)
@@ -73,6 +76,7 @@ class Leftovers:
             # A column that reaches higher than it was ever drawn is read too short.
             volume = before.volume_ul + case.sample.volume_ul
         if volume is not None and volume > 0:
+            volume = min(volume, case.sample.tip.capacity_ul)
             self._of[keyframe.mount] = Leftover(keyframe.tip, volume, case.sample.well)
         elif before is not None and case.delivery is not None:
             perhaps = case.sample.volume_ul if case.delivery.shown is Shown.NOTHING else 0.0
@@ -91,6 +95,10 @@ class Leftovers:
             delivery: What it shows if the tip held so much before and after, µL.
         """
         left = self.known(keyframe)
+        drawn = case.sample.expected_ul.get(KeyframeKind.TRANSIT, case.sample.volume_ul)
+        if left is not None and left.volume_ul + drawn > case.sample.tip.capacity_ul:
+            # Overfull, it drew less than it was told, and looks alike before and after.
+            return None
         if left is None or explains(left, case, delivery(left.volume_ul)):
             return left
         more = replace(left, volume_ul=left.volume_ul + left.perhaps_ul, perhaps_ul=0.0)
@@ -100,9 +108,12 @@ class Leftovers:
         self._of[keyframe.mount] = more
         return more
 
-    def restore(self, mount: str, left: Leftover) -> None:
-        """From what was kept of an earlier verdict."""
-        self._of[mount] = left
+    def restore(self, mount: str, left: Leftover | None) -> None:
+        """From what was kept of an earlier verdict; ``None``: nothing was known to be left."""
+        if left is None:
+            self._of.pop(mount, None)
+        else:
+            self._of[mount] = left
 
 
 def explains(left: Leftover, case: GateInput, delivery: Delivery) -> bool:

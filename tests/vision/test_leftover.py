@@ -104,6 +104,33 @@ def test_failures_that_leave_nothing_are_forgotten(failure) -> None:
     assert tips.known(KEYFRAME) is None
 
 
+def test_what_was_left_went_with_the_tip() -> None:
+    tips = Leftovers()
+    tips.note(KEYFRAME, case(), fail(50.0, 0.0))
+    tips.note(KEYFRAME, case(), GateDecision(Outcome.FAIL, Gate.VLM, "", FailureType.NO_TIP))
+    assert tips.known(KEYFRAME) is None
+
+
+@pytest.mark.parametrize(("free_ul", "explained"), [(110.0, True), (90.0, False)])
+def test_a_tip_without_room_for_what_was_drawn_is_not_explained(free_ul, explained) -> None:
+    """100 µL are drawn, into a tip in which all that can be seen is full before and after."""
+    tips = Leftovers()
+    tips.note(KEYFRAME, case(), fail(case().sample.tip.capacity_ul - free_ul, 0.0))
+    found = tips.explaining(KEYFRAME, case(), lambda held: UNKNOWN)
+    assert (found is not None) is explained
+
+
+def test_no_more_is_left_than_a_tip_holds() -> None:
+    tips = Leftovers()
+    most = case().sample.tip.capacity_ul
+    nothing = GateDecision(Outcome.FAIL, Gate.VOLUMETRIC, "", FailureType.NO_DISPENSE, 100.0, 0.0)
+    tips.note(KEYFRAME, case(), fail(most - 10.0, 0.0))
+    tips.note(KEYFRAME, case(), nothing)
+    known = tips.known(KEYFRAME)
+    assert known is not None
+    assert known.volume_ul == pytest.approx(most)
+
+
 def unseen() -> GateInput:
     """A well of which nothing was seen to leave."""
     return replace(case(), delivery=Delivery(Shown.NOTHING))

@@ -318,6 +318,18 @@ def test_what_wells_showed_of_a_liquid_is_known_after_a_restart(run) -> None:
         assert analyser._first.proven(liquid) is proven
 
 
+def test_what_is_left_in_a_tip_is_known_after_a_restart_until_it_is_gone(run) -> None:
+    verdict, keyframe = run[0][0], next(iter(keyframes(1)))
+    left = {"tip": keyframe.tip, "volume_ul": 50.0, "well": "A1"}
+    known = {"stream": [f"{keyframe.mount} p300_single", 300.0, "water"], "scores": {}}
+    known |= {"normal": False, "volume_ul": 100.0}
+    for wells, ul in (([left], 50.0), ([left, None], None)):
+        analyser = RunAnalyserFactory(Told()).begin("run")
+        analyser.recall([(verdict, {"calibration": {**known, "left": one}}) for one in wells])
+        found = analyser._leftovers.known(keyframe)
+        assert (None if found is None else found.volume_ul) == ul
+
+
 def every(fault: str, wells: int) -> list[str]:
     return [f"{fault}@#{number}" for number in range(1, wells + 1)]
 
