@@ -173,7 +173,7 @@ def _dry_run(
         AHEAD.reset(known)
     wells = rows_of(overview)
     touched: tuple[str, ...] = ()
-    notes = list(unproven(overview))
+    notes = list(unproven(overview, settings.cascade.first_wells == "trust"))
     if outcome == "stopped":
         touched = touched_after(told, wells)
         notes.append(f"Wells touched after the failed dispense: {', '.join(touched) or 'none'}.")

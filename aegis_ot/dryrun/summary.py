@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -126,11 +125,12 @@ _UNANSWERED = (
 )
 
 
-def unproven(overview: RunOverview) -> Iterator[str]:
+def unproven(overview: RunOverview, trusted: bool) -> Iterator[str]:
     """Of which liquids nothing was seen to leave a tip, though wells of it passed on trust, or wait
-    for an answer that nobody is there to give."""
+    for an answer that nobody is there to give. Where first wells are trusted, what stays open does
+    so for another reason."""
     plain: dict[tuple[str, str], bool] = {}
-    waiting: Counter[tuple[str, str]] = Counter()
+    waiting: set[tuple[str, str]] = set()
     for entry in overview["trajectories"]:
         known, verdict = entry["evidence"].get("calibration"), verdict_of(entry)
         if not known:
@@ -138,9 +138,9 @@ def unproven(overview: RunOverview) -> Iterator[str]:
         key = str(known["stream"][2] or "the liquid"), str(known["stream"][0])
         if verdict.get("outcome") == Outcome.PASS.value:
             plain[key] = plain.get(key, False) or known.get("strength") is not None
-        elif (verdict.get("outcome"), verdict.get("route")) == _ASKED:
+        elif not trusted and (verdict.get("outcome"), verdict.get("route")) == _ASKED:
             plain.setdefault(key, False)
-            waiting[key] += 1
+            waiting.add(key)
     for key, shown in plain.items():
         if not shown:
             liquid, pipette = key
@@ -148,7 +148,7 @@ def unproven(overview: RunOverview) -> Iterator[str]:
                 f"In no well was {liquid} seen to leave the tip of the {pipette}: none may have "
                 "been drawn or dispensed, or it is too clear or the tip too small for this view. "
                 "On a robot you are asked about the first well. "
-                + (_UNANSWERED if waiting[key] else "Here its first wells were taken for right.")
+                + (_UNANSWERED if key in waiting else "Here its first wells were taken for right.")
             )
 
 
