@@ -24,6 +24,7 @@ from ..sidecar import Judged, make_analyser
 from ..vocabulary import Outcome, Site, counted
 from ..workbench.playback import playback_of
 from .exit_codes import BROKEN, CLEAN, FINDINGS
+from .paths import write_text
 from .printing import PlainConsole
 from .progress import progress_bar
 
@@ -157,10 +158,9 @@ def _table(rows: Sequence[WellRow], width: int | None = None) -> Table:
 
 def write_report(path: Path, results: Sequence[DryRun]) -> None:
     """Write the HTML report, making its folder."""
-    path.parent.mkdir(parents=True, exist_ok=True)
     reported = [replace(one.reported, played=_played(one)) for one in results]
     page = run_report_html(reported, "aegis_ot, simulated")
-    path.write_text(page, encoding="utf-8")
+    write_text(path, page)
     console.print(f"Report: {path}", markup=False, soft_wrap=True)
 
 

@@ -20,6 +20,7 @@ from rich.text import Text
 from ..errors import AegisError, ConfigurationError
 from ..vocabulary import counted
 from .exit_codes import BROKEN, CLEAN, FINDINGS, INTERRUPTED
+from .paths import write_text
 from .printing import PlainConsole
 
 if TYPE_CHECKING:
@@ -233,11 +234,10 @@ class _FleetLines:
 def _write(path: Path, result: FleetReport) -> None:
     from ..reports.fleet_html import fleet_report_html
 
-    path.parent.mkdir(parents=True, exist_ok=True)
     text = json.dumps(result.to_json(), indent=2, ensure_ascii=False)
-    path.with_suffix(".json").write_text(text + "\n", encoding="utf-8")
+    write_text(path.with_suffix(".json"), text + "\n")
     if path.suffix == ".html":
-        path.write_text(fleet_report_html(result.to_json(pictures=True)), encoding="utf-8")
+        write_text(path, fleet_report_html(result.to_json(pictures=True)))
     _say(f"Report: {path}")
 
 

@@ -10,6 +10,7 @@ import typer
 from ..errors import ConfigurationError, ProtocolRejected
 from ..workbench.files import NO_GUARD
 from .exit_codes import FINDINGS
+from .paths import write_text
 from .robots import Robot
 
 app = typer.Typer()
@@ -90,8 +91,7 @@ def wrap(
     if out.exists() and out.samefile(protocol):
         raise ConfigurationError("--out would overwrite the protocol itself. Name another file.")
     wrapped = put_in(text, _settings(setting or ()))
-    out.parent.mkdir(parents=True, exist_ok=True)
-    out.write_text(wrapped.text, encoding="utf-8", newline="")
+    write_text(out, wrapped.text, newline="")
     typer.echo(
         f"{out}: {len(wrapped.text.encode()) / 1000:.0f} kB, {wrapped.bundle.modules} modules and "
         "the rules inside."

@@ -11,15 +11,15 @@ if TYPE_CHECKING:
     from ..vision.dataset import Dataset
 
 
-def write_text(path: Path, text: str) -> None:
-    """Write a file, making its folder.
+def write_text(path: Path, text: str, newline: str | None = None) -> None:
+    """Write a file, making its folder; ``newline`` as :func:`open` takes it.
 
     Raises:
         ConfigurationError: It cannot be written.
     """
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text, encoding="utf-8", errors="backslashreplace")
+        path.write_text(text, encoding="utf-8", errors="backslashreplace", newline=newline)
     except OSError as error:
         raise ConfigurationError(f"{path} cannot be written: {error.strerror}.") from None
 

@@ -16,6 +16,7 @@ from rich.text import Text
 from ..errors import ConfigurationError, RobotError
 from .exit_codes import BROKEN, CLEAN, FINDINGS, INTERRUPTED
 from .options import CsvParameters, Labware, Parameters
+from .paths import write_text
 from .printing import PlainConsole
 
 if TYPE_CHECKING:
@@ -298,9 +299,8 @@ def sidecar_of(sidecar: str | None, token: str | None) -> tuple[str | None, str 
 def _write_report(path: Path, result: RobotRun) -> None:
     from ..robot.run_report import run_report
 
-    path.parent.mkdir(parents=True, exist_ok=True)
     text = json.dumps(run_report(result), indent=2, ensure_ascii=False)
-    path.write_text(text + "\n", encoding="utf-8")
+    write_text(path, text + "\n")
     _say(f"Report: {path}")
 
 
