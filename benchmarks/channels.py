@@ -8,7 +8,7 @@ fills the columns of a plate from a trough with a new row of tips for each. In s
 is planted in one channel; the other seven of that row, and whole rows without one, must pass. A
 planted channel counts as named if its own verdict is a fail or undecided, and not if only another
 one's is. Results are those of simulated frames, and say so; with ``--rendered`` of path-traced ones
-(``scripts/path_traced``, which needs ``pip install mitsuba``).
+(``scripts/path_traced``, which needs ``pip install mitsuba pyoidn``).
 """
 
 from __future__ import annotations

@@ -3,11 +3,12 @@
 ``python -m benchmarks.qualification [--labs 20] [--truth 5] [--seed 44000] [--fit N] [--json OUT]``
 ``python -m benchmarks.qualification --duration``: robot time of 48 deliveries, estimated.
 
-Each laboratory is a camera, light, pipette and liquid drawn at random. Its truth are the shares
-caught in further qualifications of the same laboratory, with orders and noise of their own. A
-claim covers it if the claim's 95 % interval holds it. Further qualifications are few, so their mean
-is itself off: a miss is "near" if the mean's own 95 % interval (Student's t over those runs) meets
-the claim. It counts as a miss all the same. Beside it stand the exact intervals of one run.
+Each laboratory is a camera, light, pipette and liquid drawn at random. As a real robot does, it
+says where each tip is, which registers the camera. Its truth are the shares caught in further
+qualifications of the same laboratory, with orders and noise of their own. A claim covers it if the
+claim's 95 % interval holds it. Further qualifications are few, so their mean is itself off: a miss
+is "near" if the mean's own 95 % interval (Student's t over those runs) meets the claim. It counts
+as a miss all the same. Beside it stand the exact intervals of one run.
 
 With ``--fit`` the first qualification's frames teach a lab its own limits (``aegis-ot fit --start
 shipped``; ``--own``: a scorer of its own, too), which judge further ones beside the shipped ones.
@@ -31,14 +32,16 @@ import numpy as np
 
 from aegis_ot.errors import DatasetError
 from aegis_ot.planted import NORMAL
-from aegis_ot.qualification.frames import write_frames
+from aegis_ot.qualification.frames import with_located_tips, write_frames
 from aegis_ot.qualification.opening import JudgedDelivery
 from aegis_ot.qualification.plan import CALIBRATING, QualificationPlan, make_plan
 from aegis_ot.qualification.protocol import protocol_text
 from aegis_ot.sidecar import make_analyser
 from aegis_ot.sidecar.config import CascadeSettings
 from aegis_ot.simulation import SessionParameters, SimulatedCamera
+from aegis_ot.simulation.scene import TipContent, place_tip
 from aegis_ot.vision.detection import HeatmapDetector
+from aegis_ot.vision.tips import tip_for
 from aegis_ot.vision.types import TipDetection, TrajectorySample
 from aegis_ot.vocabulary import Keyframe, KeyframeKind, WellRef
 from aegis_ot.worldmodel import fit_model
@@ -81,11 +84,13 @@ class LabRun:
         self._detector = _Remembering()
         camera = SimulatedCamera(seed, plan.faults(), lab.session)
         self.wells: list[list[tuple[Keyframe, Any]]] = []
-        for keyframes in _keyframes(plan, PIPETTES[lab.pipette]):
+        for keyframes in _keyframes(plan, PIPETTES[lab.pipette], lab.session):
             shown = []
             for keyframe in keyframes:
                 camera.announce(keyframe)
-                shown.append((keyframe, camera.frame_after(0.0, 5.0)))
+                frame = camera.frame_after(0.0, 5.0)
+                # The robot's positions register no camera that is known to be a simulated one.
+                shown.append((keyframe, replace(frame, simulated=False)))
             self.wells.append(shown)
 
     def judged(
@@ -125,13 +130,14 @@ class LabRun:
         found = []
         for planned, shown in zip(self.plan.deliveries, self.wells, strict=True):
             last = shown[-1][0]
+            positions = {key.kind: key.position for key, _ in shown if key.position is not None}
             frames = {keyframe.kind: frame.image for keyframe, frame in shown}
             found.append(
                 TrajectorySample(
                     id=f"{self.plan.seed}-{last.trajectory}",
                     plate=f"{planned.liquid} {planned.half}", well=planned.well,
                     pipette=self.lab.pipette, capacity_ul=last.capacity_ul,
-                    volume_ul=self.plan.volume_ul, frames=frames,
+                    volume_ul=self.plan.volume_ul, frames=frames, positions=positions,
                     detections={
                         kind: self._detector.detect(image) for kind, image in frames.items()
                     },
@@ -141,7 +147,7 @@ class LabRun:
                     failure_type=planned.failure_type, retained_fraction=planned.leftover,
                 )
             )  # fmt: skip
-        return found
+        return with_located_tips(found, self._detector)
 
 
 class _Remembering(HeatmapDetector):
@@ -157,8 +163,10 @@ class _Remembering(HeatmapDetector):
         return self._known[id(image)][1]
 
 
-def _keyframes(plan: QualificationPlan, capacity_ul: float) -> Iterator[list[Keyframe]]:
-    source = WellRef("reservoir", "A1", "reservoir", "2")
+def _keyframes(
+    plan: QualificationPlan, capacity_ul: float, session: SessionParameters
+) -> Iterator[list[Keyframe]]:
+    source, tip = WellRef("reservoir", "A1", "reservoir", "2"), tip_for(plan.pipette, capacity_ul)
     for number, planned in enumerate(plan.deliveries):
         first = Keyframe(
             f"run {plan.seed}", 0, number, KeyframeKind.ASPIRATE, plan.pipette, "left", 1,
@@ -170,6 +178,9 @@ def _keyframes(plan: QualificationPlan, capacity_ul: float) -> Iterator[list[Key
             replace(
                 first, kind=kind, sequence=4 * number + place,
                 expected_ul=plan.volume_ul if kind in loaded else 0.0,
+                position=place_tip(
+                    session, kind, tip, (TipContent(),), source="A1", destination=planned.well
+                ).orifice,
             )
             for place, kind in enumerate(KeyframeKind)
         ]  # fmt: skip

@@ -6,7 +6,7 @@ from typing import Any
 
 
 def renderer(rendered: bool) -> Any:
-    """``render`` of a simulated camera; path-traced frames need ``pip install mitsuba``."""
+    """``render`` of a simulated camera; path-traced frames need ``pip install mitsuba pyoidn``."""
     if rendered:
         from scripts.path_traced.tracer import PathTracer
 

@@ -43,14 +43,27 @@ def true_samples(
     recorded = recorded_runs(store, detector, [run])[0]
     by_id = {f"{run}-{number}": planned for number, planned in enumerate(plan.deliveries)}
     samples = [_truly(each, by_id[each.id]) for each in recorded.samples if each.id in by_id]
+    return with_located_tips(samples, detector), recorded.source
+
+
+def with_located_tips(
+    samples: Sequence[TrajectorySample], detector: Detector
+) -> list[TrajectorySample]:
+    """The deliveries of one run with the boxes of their tips: projected where the robot's positions
+    register the camera, none where a tip was planted away."""
+    located: Mapping[str, Mapping[KeyframeKind, TipDetection | None]] = {}
     if any(each.positions for each in samples):
         located = located_tips(samples, TipLocator(detector))
-        samples = [replace(each, detections=located[each.id]) for each in samples]
-    without = dict.fromkeys(KeyframeKind)
+    without: Mapping[KeyframeKind, TipDetection | None] = dict.fromkeys(KeyframeKind)
     return [
-        replace(each, detections=without) if each.failure_type == NO_TIP else each
+        replace(
+            each,
+            detections=without
+            if each.failure_type == NO_TIP
+            else located.get(each.id, each.detections),
+        )
         for each in samples
-    ], recorded.source
+    ]
 
 
 def _truly(sample: TrajectorySample, planned: QualifyingDelivery) -> TrajectorySample:

@@ -2,8 +2,8 @@
 ``python -m scripts.pair_network train DRAWN.npz... --out NETWORK.pt [--minutes 30]``
 ``python -m scripts.pair_network export NETWORK.pt OUT.onnx --learned-from "..."``
 
-It needs ``pip install '.[train]'``, and mitsuba for ``--traced``. How the network ranks a data set
-says ``aegis-ot evaluate layer2 DATASET --scorer pair``.
+It needs ``pip install '.[train]'``, with mitsuba and pyoidn for ``--traced``. How the network ranks
+a data set says ``aegis-ot evaluate layer2 DATASET --scorer pair``.
 """
 
 from __future__ import annotations

@@ -4,7 +4,7 @@
 ``python -m scripts.path_traced OUT --mixed [--seed 1]``
 ``python -m scripts.path_traced OUT --for-detector N [--rows] [--sleeves] [--seed 1]``
 
-It needs ``pip install mitsuba`` beside ``aegis-ot[sidecar]``; a plate of twelve wells
+It needs ``pip install mitsuba pyoidn`` beside ``aegis-ot[sidecar]``; a plate of twelve wells
 takes a minute or two. ``meta.json`` names the kind of each plate, which
 ``aegis-ot evaluate layer2 OUT --leave-out camera`` leaves out as a whole. ``--mixed`` renders two
 plates of each of all ten kinds, one after the other with other pipettes and liquids.

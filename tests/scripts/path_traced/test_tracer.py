@@ -14,7 +14,8 @@ from aegis_ot.simulation.session import SessionParameters
 from aegis_ot.vision.tips import TIPS
 from aegis_ot.vocabulary import KeyframeKind
 
-pytest.importorskip("mitsuba", reason="path-traced frames need mitsuba: pip install mitsuba")
+pytest.importorskip("mitsuba", reason="path-traced frames need it: pip install mitsuba pyoidn")
+pytest.importorskip("pyoidn", reason="path-traced frames need it: pip install mitsuba pyoidn")
 
 from scripts.path_traced.stage import Lamps
 from scripts.path_traced.tracer import PathTracer, Quality
