@@ -21,6 +21,7 @@ from .handling import TipAboveBottom, TipsOverWells
 from .order import MixedAfter, ReceivedBefore, RisingOrder
 from .range import VolumeInRange
 from .receiving import NeverReceives, Receives
+from .retaken import TipsInPlace
 from .rule_context import RuleContext
 from .uniform_volume import UniformVolume
 from .volumes import VolumeBookkeeping
@@ -44,6 +45,7 @@ CHECKS: dict[str, type[Check]] = {
     "series_tip": SeriesTip,
     "volume_bookkeeping": VolumeBookkeeping,
     "tips_over_wells": TipsOverWells,
+    "tips_in_place": TipsInPlace,
     "tip_above_bottom": TipAboveBottom,
     "volume_in_range": VolumeInRange,
     "written_is_moved": WrittenIsMoved,

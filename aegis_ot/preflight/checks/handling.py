@@ -55,7 +55,7 @@ class TipsOverWells(Check):
     def find(self, case: RuleContext) -> Iterator[Result]:
         found: dict[tuple[object, ...], list[Beside]] = {}
         for one in case.trace.beside:
-            step, target = one.step, _target(one.step)
+            step, target = one.step, target_of(one.step)
             info = case.trace.labware.get(target.labware)
             if info is None or len(info.wells) == 1 or target in case.waste:
                 continue
@@ -76,8 +76,8 @@ class TipsOverWells(Check):
                 warning = "They hold nothing, and stand beyond the labware."
             elif _may_be_left_out(case, together):
                 warning = _LEFT_OUT
-            message = _beside(worst[0], case.trace.labware[_target(worst[0].step).labware])
-            for target in dict.fromkeys(_target(one.step) for one in worst):
+            message = _beside(worst[0], case.trace.labware[target_of(worst[0].step).labware])
+            for target in dict.fromkeys(target_of(one.step) for one in worst):
                 site = Site(worst[0].step.line, target, "not all tips stand over a well")
                 yield Violation(message, (site,), cause, warning=warning)
 
@@ -87,10 +87,10 @@ def _may_be_left_out(case: RuleContext, together: Sequence[Beside]) -> bool:
     rows = {_LETTERS.index(nozzle[0]) for one in together for nozzle in one.nozzles}
     step = together[0].step
     elsewhere = case.trace.in_pairs.get(step.pipette.key, set())
-    return bool(elsewhere - {_target(step).labware}) and all(row % 2 for row in rows)
+    return bool(elsewhere - {target_of(step).labware}) and all(row % 2 for row in rows)
 
 
-def _target(step: Operation) -> WellRef:
+def target_of(step: Operation) -> WellRef:
     """The well that the protocol names, or the first that a tip stands over."""
     target = step.wells[step.lead] or step.well
     assert target is not None
@@ -108,7 +108,7 @@ _LETTERS = "ABCDEFGHIJKLMNOP"
 _PITCH_MM = 9.0
 
 
-def _offsets(step: Operation) -> Mapping[str, tuple[float, float]]:
+def offsets_of(step: Operation) -> Mapping[str, tuple[float, float]]:
     """Where each nozzle is from the one that leads, mm."""
     places = {n: (_LETTERS.index(n[0]), int(n[1:])) for n in step.nozzles}
     row, column = places[step.nozzles[step.lead]]
@@ -119,7 +119,7 @@ def _is_harmless(one: Beside, case: RuleContext) -> bool:
     """Whether these tips hold nothing, owe nothing and meet nothing: beyond the labware."""
     if one.holding or one.missed:
         return False
-    step, offsets = one.step, _offsets(one.step)
+    step, offsets = one.step, offsets_of(one.step)
     known = next((n, ref) for n, ref in zip(step.nozzles, step.wells, strict=False) if ref)
     wells = case.trace.labware[known[1].labware].wells
     anchor, (away_x, away_y) = wells[known[1].name], offsets[known[0]]
@@ -135,7 +135,7 @@ def _is_harmless(one: Beside, case: RuleContext) -> bool:
 
 
 def _beside(one: Beside, info: LabwareInfo) -> str:
-    step, target = one.step, _target(one.step)
+    step, target = one.step, target_of(one.step)
     first, last = one.nozzles[0], one.nozzles[-1]
     channels = f"channel {first}" if first == last else f"channels {first} to {last}"
     over = f"{len(one.nozzles)} of {counted(len(step.nozzles), 'tip')}"
@@ -153,7 +153,7 @@ def _beside(one: Beside, info: LabwareInfo) -> str:
 
 def _where_all_fit(step: Operation, info: LabwareInfo, name: str) -> str:
     """The nearest well that has every tip over a well."""
-    offsets = list(_offsets(step).values())
+    offsets = list(offsets_of(step).values())
     here = info.wells[name]
 
     def away(other: str) -> float:
@@ -175,13 +175,13 @@ class TipAboveBottom(Check):
         below: dict[str, dict[int | None, Operation]] = {}
         for step in case.trace.log:
             if isinstance(step, Operation) and _is_below(step):
-                kind = case.trace.labware[_target(step).labware].load_name
+                kind = case.trace.labware[target_of(step).labware].load_name
                 known = below.setdefault(kind, {}).setdefault(step.line, step)
                 if (step.from_bottom or 0.0) < (known.from_bottom or 0.0):
                     below[kind][step.line] = step
         for kind, by_line in below.items():
             steps = sorted(by_line.values(), key=lambda step: step.from_bottom or 0.0)
-            deepest, target = -(steps[0].from_bottom or 0.0), _target(steps[0])
+            deepest, target = -(steps[0].from_bottom or 0.0), target_of(steps[0])
             depth = case.trace.labware[target.labware].wells[target.name].depth
             message = (
                 f"The tip of the {called(steps[0])} is sent {deepest:.3g} mm below the bottom of "
@@ -196,7 +196,7 @@ class TipAboveBottom(Check):
                     f"{len(steps)} statements do so: if {kind} is deeper, mend its definition."
                 )
             for step in steps:
-                site = Site(step.line, _target(step), "below the bottom")
+                site = Site(step.line, target_of(step), "below the bottom")
                 yield Violation(message, (site,), (kind,), warning=warning)
 
 

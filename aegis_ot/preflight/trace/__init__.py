@@ -7,7 +7,9 @@ from .building import FALLS_MM, TO_EMPTY, build_trace, touched_by_tip
 from .geometry import Contact, row_column
 from .loads import Given, Load, loads_of
 from .model import EMPTY_UL, Met, Tip, Transfer, Visit, Well
+from .pauses import topics_in
 from .table import places, trace_table
+from .tips import Retaking
 from .trace import Beside, Imbalance, Trace, Usage, chains_of
 
 __all__ = [
@@ -20,6 +22,7 @@ __all__ = [
     "Imbalance",
     "Load",
     "Met",
+    "Retaking",
     "Tip",
     "Trace",
     "Transfer",
@@ -31,6 +34,7 @@ __all__ = [
     "loads_of",
     "places",
     "row_column",
+    "topics_in",
     "touched_by_tip",
     "trace_table",
 ]

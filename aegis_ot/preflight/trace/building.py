@@ -80,7 +80,7 @@ class _Builder:
         supposed: Collection[WellRef],
     ) -> None:
         self._box = TipBox()
-        self._trace = Trace(labware, tips=self._box.tips)
+        self._trace = Trace(labware, tips=self._box.tips, retakings=self._box.retakings)
         self._half_loaded = {
             key
             for key, info in labware.items()
@@ -131,6 +131,7 @@ class _Builder:
             self._slots[event.labware] = event.text
             if not event.text:  # the same plate comes back, but nobody saw what was done to it
                 self._plates.forget_volumes(event.labware)
+                self._box.refill_rack(event.labware)
         elif kind is EventKind.PAUSED:
             self._paused(event)
         elif kind is EventKind.MODULE and "shake" in topics_in(event.text, self._words):
@@ -161,6 +162,7 @@ class _Builder:
                 self._box.refill_rack(key, returned_too=True)
         for key in said.replaced:
             self._replace(key)
+        self._box.pause(event)
         if said.volumes_unsure:
             self._plates.forget_volumes()
 
@@ -174,7 +176,7 @@ class _Builder:
     def _step(self, step: Operation) -> None:
         kind = step.kind
         if kind is OperationKind.PICK_UP_TIP:
-            self._box.pick_up(step.pipette.key, step.nozzles, self._loaded(step))
+            self._box.pick_up(step, self._loaded(step))
         elif kind is OperationKind.DROP_TIP:
             homes = (None,) * len(step.nozzles) if step.disposal else step.wells
             self._box.drop(step.pipette.key, step.nozzles, homes)

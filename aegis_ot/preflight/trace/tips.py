@@ -2,10 +2,35 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
 
+from ...adapters.opentrons.instrumentation import Event, Operation
 from ...vocabulary import WellRef
 from .model import Tip
+
+
+@dataclass(eq=False)
+class Taking:
+    """A pick-up that emptied places of a rack, and the pauses since then."""
+
+    step: Operation
+    pauses: list[Event] = field(default_factory=list)
+
+
+@dataclass(frozen=True)
+class Retaking:
+    """A pick-up from places that the run has emptied before.
+
+    Attributes:
+        step: The pick-up.
+        emptied: Those places, with what emptied each.
+        found: The places where it finds tips.
+    """
+
+    step: Operation
+    emptied: Mapping[WellRef, Taking]
+    found: Sequence[WellRef]
 
 
 class TipBox:
@@ -17,30 +42,40 @@ class TipBox:
         self.bare: set[str] = set()
         self._returned: dict[WellRef, Tip] = {}
         self._on: dict[tuple[str, str], Tip] = {}
-        self._taken: set[WellRef] = set()
+        self._taken: dict[WellRef, Taking] = {}
         self._seen: set[str] = set()
         self.tips: list[Tip] = []
+        self.retakings: list[Retaking] = []
 
-    def pick_up(
-        self, pipette: str, nozzles: Iterable[str], racks: Sequence[WellRef | None]
-    ) -> None:
+    def pick_up(self, step: Operation, racks: Sequence[WellRef | None]) -> None:
         """Put a tip on each nozzle: the returned one if one stands there, else a new one.
 
         Nozzles beside the rack, or over places whose tips are gone, stay bare: that is how a
         multi-channel pipette is used with one tip.
         """
+        pipette, taking, emptied = step.pipette.key, Taking(step), {}
         self._seen.add(pipette)
         lead = next((home for home in racks if home is not None), None)
-        for nozzle, home in zip(nozzles, racks, strict=False):
+        for nozzle, home in zip(step.nozzles, racks, strict=False):
             tip = self._returned.pop(home, None) if home is not None else None
-            gone = home is None or home in self._taken or home.labware in self.bare
+            if home in self._taken:
+                emptied[home] = self._taken[home]
+            gone = home is None or home in emptied or home.labware in self.bare
             if tip is None and gone and lead is not None and home != lead:
                 self._on.pop((pipette, nozzle), None)
                 continue
             if home is not None:
-                self._taken.add(home)
+                self._taken.setdefault(home, taking)
             tip = self._on[(pipette, nozzle)] = tip or self._new()
             tip.session += 1
+        if emptied:
+            found = [home for home, one in self._taken.items() if one is taking]
+            self.retakings.append(Retaking(step, emptied, found))
+
+    def pause(self, event: Event) -> None:
+        """Somebody stands at the robot, and may put tips where some were taken."""
+        for taking in dict.fromkeys(self._taken.values()):
+            taking.pauses.append(event)
 
     def drop(self, pipette: str, nozzles: Iterable[str], racks: Iterable[WellRef | None]) -> None:
         """Take the tips off; those put back into a rack keep their history there."""
@@ -48,7 +83,7 @@ class TipBox:
             tip = self._on.pop((pipette, nozzle), None)
             if tip is not None and home is not None:
                 self._returned[home] = tip  # with what is in it: tips are parked full, too
-                self._taken.discard(home)
+                self._taken.pop(home, None)
         self._on = {key: tip for key, tip in self._on.items() if key[0] != pipette}
 
     def on(self, pipette: str, nozzle: str) -> Tip | None:
@@ -68,7 +103,8 @@ class TipBox:
         for home in [home for home in self._returned if home.labware == labware and returned_too]:
             del self._returned[home]
         self.bare.discard(labware)
-        self._taken = {home for home in self._taken if home.labware != labware}
+        for home in [home for home in self._taken if home.labware == labware]:
+            del self._taken[home]
 
     def _new(self) -> Tip:
         tip = Tip(len(self.tips))

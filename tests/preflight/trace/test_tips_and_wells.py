@@ -6,12 +6,17 @@ from dataclasses import replace
 
 import pytest
 
-from aegis_ot.adapters.opentrons.instrumentation import EventKind, WellInfo
+from aegis_ot.adapters.opentrons.instrumentation import (
+    EventKind,
+    Operation,
+    OperationKind,
+    WellInfo,
+)
 from aegis_ot.preflight.trace import Contact
 from aegis_ot.preflight.trace.plates import Plates
 from aegis_ot.preflight.trace.tips import TipBox
 from aegis_ot.vocabulary import WellRef
-from tests.support.bench import Bench, carried, plate, well
+from tests.support.bench import PIPETTE, Bench, carried, plate, well
 from tests.support.cases import case_of
 
 
@@ -335,7 +340,8 @@ def test_a_multi_channel_pipette_that_picks_one_tip_has_one_tip() -> None:
     """The other nozzles hang beside the rack."""
     box = TipBox()
     lead = WellRef("rack", "H12")
-    box.pick_up("left", ["A1", "B1"], [lead, None])
+    pair = replace(PIPETTE, channels=2)
+    box.pick_up(Operation(OperationKind.PICK_UP_TIP, pair, ("A1", "B1"), ()), [lead, None])
     assert box.on("left", "A1") is not None
     assert box.on("left", "B1") is None
 
