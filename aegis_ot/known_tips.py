@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from .settings import Settings
+from .vocabulary import WellRef
 
 
 class KnownTips:
@@ -18,14 +19,26 @@ class KnownTips:
 
     def __init__(self) -> None:
         from .adapters.opentrons.rehearsal import Recorder
-        from .preflight.trace import touched_by_tip
         from .runtime import TipForecast, TipKnowledge
 
         self.forecast = TipForecast()
         self.recorder = Recorder()
-        self.knowledge = TipKnowledge(
-            self.forecast, lambda well: touched_by_tip(self.recorder, well)
-        )
+        self.knowledge = TipKnowledge(self.forecast, self._touched)
+
+    def _touched(self, well: WellRef) -> frozenset[WellRef] | None:
+        """The wells that the tip has touched which last dispensed into ``well``.
+
+        The run so far is read for the worst: a well of which nothing is known counts as one that
+        holds liquid, so a tip that went below its upper third touched it. ``None`` if no tip did.
+        """
+        from .adapters.opentrons.instrumentation import OperationKind
+        from .preflight.trace import build_trace
+
+        trace = build_trace(self.recorder.log, self.recorder.labware, {}, lambda ref: True)
+        for visit in reversed(trace.visits):
+            if visit.well.ref == well and visit.kind is OperationKind.DISPENSE:
+                return frozenset(touched.ref for touched in visit.tip.touched)
+        return None
 
 
 def recovers_by_itself(protocol: Any, settings: Settings) -> bool:

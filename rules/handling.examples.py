@@ -30,6 +30,18 @@ m300.drop_tip()
 # HND-1 fails: eight tips over a rack with four rows of tubes
 m300.transfer(40, tubes["A1"], deepwell["A1"], new_tip="always")
 
+# HND-1 passes: a tip that was put back is there
+for _ in range(2):
+    p300.pick_up_tip(tips300["B1"])
+    p300.transfer(50, buffer, plate["A1"], new_tip="never")
+    p300.return_tip()
+
+# HND-1 fails: a place of the rack that is empty by then
+for well in plate.rows()[0][:2]:
+    p300.pick_up_tip(tips300["B1"])
+    p300.transfer(50, buffer, well, new_tip="never")
+    p300.drop_tip()
+
 # HND-2 passes: just above the bottom
 p300.transfer(50, buffer, plate["A1"].bottom(0.5))
 

@@ -6,9 +6,8 @@ from pathlib import Path
 from aegis_ot.adapters.opentrons.rehearsal import Script
 from aegis_ot.llm.layer1_prompt import hybrid_request
 from aegis_ot.llm.prompts_text import prompt
-from aegis_ot.preflight.opinion import check_with_dossier
 from aegis_ot_lab.tokens import estimate_tokens, request_size
-from tests.llm.samples import rule_set
+from tests.llm.samples import check_with_dossier, rule_set
 
 BENCHMARK = Path(__file__).parents[2] / "examples" / "benchmark"
 

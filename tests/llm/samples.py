@@ -6,14 +6,14 @@ import functools
 import textwrap
 from typing import Any
 
-from aegis_ot.adapters.opentrons.rehearsal import Script
+from aegis_ot.adapters.opentrons.rehearsal import Script, record
 from aegis_ot.llm import Request
 from aegis_ot.llm.answer import strict_object
 from aegis_ot.llm.backend import Message, Passage, PromptPicture
 from aegis_ot.llm.backends.retrying import Clock
-from aegis_ot.preflight import Options, Report, RuleSet, load_rules
+from aegis_ot.preflight import Options, Report, RuleSet, judge, load_rules
 from aegis_ot.preflight.judging import Interpretation
-from aegis_ot.preflight.opinion import check_with_dossier
+from aegis_ot.preflight.opinion import make_dossier
 from aegis_ot.vocabulary import Dossier
 
 SCHEMA: dict[str, Any] = strict_object(
@@ -54,6 +54,15 @@ class FakeClock(Clock):
 @functools.cache
 def rule_set() -> RuleSet:
     return load_rules()
+
+
+def check_with_dossier(
+    script: Script, rules: RuleSet, options: Options | None = None
+) -> tuple[Report, Dossier, Interpretation]:
+    """Rehearse a protocol, judge it, and put its dossier together."""
+    reading = Interpretation(record(script), rules, options)
+    report = judge(reading)
+    return report, make_dossier(reading, report), reading
 
 
 @functools.cache

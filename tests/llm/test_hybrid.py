@@ -4,7 +4,7 @@ from aegis_ot.adapters.opentrons.rehearsal import Script
 from aegis_ot.llm import ScriptedBackend, TokenUsage, hybrid
 from aegis_ot.llm.layer1_prompt import hybrid_request
 
-from .samples import CONTAMINATED, answer, examined, rule_set
+from .samples import CONTAMINATED, answer, check_with_dossier, examined, rule_set
 
 
 def test_hybrid_keeps_and_counts() -> None:
@@ -21,7 +21,6 @@ def test_a_laboratorys_own_rules_are_told(tmp_path) -> None:  # type: ignore[no-
     import json
 
     from aegis_ot.preflight import load_rules
-    from aegis_ot.preflight.opinion import check_with_dossier
     from aegis_ot.preflight.rule_set import shipped_rules
 
     family = json.loads((shipped_rules() / "generic.json").read_text())

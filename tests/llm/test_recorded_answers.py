@@ -15,10 +15,9 @@ from aegis_ot.adapters.opentrons.rehearsal import Script
 from aegis_ot.llm import ReplayBackend, ScriptedBackend, hybrid
 from aegis_ot.llm.layer1_prompt import hybrid_request
 from aegis_ot.preflight import Report
-from aegis_ot.preflight.opinion import check_with_dossier
 from aegis_ot.vocabulary import Severity, VerdictWord
 from aegis_ot_lab.batch import export_requests, import_answers
-from tests.llm.samples import rule_set
+from tests.llm.samples import check_with_dossier, rule_set
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 FOLDERS = ["benchmark", "prose-benchmark"]

@@ -14,9 +14,9 @@ HASHES = """
 import sys
 from pathlib import Path
 from aegis_ot.preflight import load_rules
-from aegis_ot.preflight.opinion import check_with_dossier
 from aegis_ot.adapters.opentrons.rehearsal import Script
 from aegis_ot.llm.layer1_prompt import hybrid_request
+from tests.llm.samples import check_with_dossier
 
 rule_set = load_rules()
 for path in map(Path, sys.argv[1:]):

@@ -9,11 +9,10 @@ from itertools import islice
 from typing import Literal
 
 from ...adapters.opentrons.instrumentation import Operation, OperationKind
-from ...vocabulary import Site
 from ..rules import role_names
 from ..source import comparable
 from ..trace import Contact, Met, Tip, Visit, Well
-from .check import Check, Doubt, Result, Violation, surest
+from .check import Check, Doubt, Result, Violation, site_of, surest
 from .practice import is_given_to_all, made_after, rinsed_with, was_rinsed
 from .rule_context import RuleContext, carried_liquids
 
@@ -280,10 +279,7 @@ class Carry(Check):
         cause = (warning,) if warning == _RINSED else (visit.line, met.line, what)
         return Violation(
             message,
-            (
-                Site(met.line, met.well.ref, f"met {what}", met.index),
-                Site(visit.line, well.ref, f"entered the {case.title(well)}", visit.index),
-            ),
+            (site_of(met, f"met {what}"), site_of(visit, f"entered the {case.title(well)}")),
             cause,
             (origin, well),
             tip=(visit.tip.number, what, case.title(well)),

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any, ClassVar
 
 from ...vocabulary import Site, WellRef
-from ..trace import Contact, Well
+from ..trace import Contact, Met, Visit, Well
 from .rule_context import RuleContext
 
 
@@ -76,6 +76,11 @@ def surest(found: dict[Any, Any], key: object, result: Result) -> None:
     told = found.setdefault(key, result)
     if getattr(told, "contact", Contact.WET) < getattr(result, "contact", Contact.CLEAR):
         found[key] = result
+
+
+def site_of(one: Visit | Met, action: str) -> Site:
+    """Where a visit, or a first contact, was, and what was done there."""
+    return Site(one.line, one.well.ref, action, one.index)
 
 
 def microlitres(volume: float) -> str:

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from ...adapters.opentrons.instrumentation import OperationKind
 from ...vocabulary import Site
 from ..trace import Tip, Transfer, Visit, Well
-from .check import Check, Doubt, Result, Violation
+from .check import Check, Doubt, Result, Violation, site_of
 from .rule_context import RuleContext, at
 from .series import Series, SeriesFinder, branching
 
@@ -108,9 +108,7 @@ class SeriesMixed(SeriesCheck):
                 f"The dilution into {step.well.ref} {at(step.visit.line)} is not mixed {then}.",
                 (
                     Site(step.drawn, step.source.ref, "drew the more concentrated solution"),
-                    Site(
-                        step.visit.line, step.well.ref, "diluted here, not mixed", step.visit.index
-                    ),
+                    site_of(step.visit, "diluted here, not mixed"),
                 ),
                 (_BY_HAND,) if step.well in by_hand else (step.visit.line,),
                 warning=_BY_HAND if step.well in by_hand else "",
@@ -160,7 +158,7 @@ class SeriesDirection(SeriesCheck):
                 f"{step.well.ref} {at(step.visit.line)}.",
                 (
                     Site(step.drawn, step.source.ref, "drew from here"),
-                    Site(step.visit.line, step.well.ref, f"diluted {what}", step.visit.index),
+                    site_of(step.visit, f"diluted {what}"),
                 ),
                 (step.visit.line, jump < 0),
             )
@@ -219,10 +217,7 @@ def _one_tip(
             yield Violation(
                 f"The tip that touched the more concentrated {before.well.ref} "
                 f"{at(before.line)} entered {visit.well.ref} {at(visit.line)}.",
-                (
-                    Site(before.line, before.well.ref, did, before.index),
-                    Site(visit.line, visit.well.ref, "entered a later well", visit.index),
-                ),
+                (site_of(before, did), site_of(visit, "entered a later well")),
                 ("series tip",),
                 contact=min(before.contact, visit.contact),
                 warning=warning,

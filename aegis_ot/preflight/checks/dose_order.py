@@ -7,11 +7,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import islice
 
-from ...vocabulary import Site
 from ..rules import role_names
 from ..source import comparable, lexicon_of
 from ..trace import Contact, Met, Visit, Well
-from .check import Check, Doubt, Result, Violation, surest
+from .check import Check, Doubt, Result, Violation, site_of, surest
 from .rule_context import RuleContext, carried_liquids
 
 
@@ -96,10 +95,7 @@ class DoseOrder(Check):
         return Violation(
             f"The tip that met {what} {case.at(met)} entered {visit.well.ref}, {harm}, "
             f"{case.at(visit)}.",
-            (
-                Site(met.line, met.well.ref, f"met {case.title(origin)}", met.index),
-                Site(visit.line, visit.well.ref, f"entered {harm}", visit.index),
-            ),
+            (site_of(met, f"met {case.title(origin)}"), site_of(visit, f"entered {harm}")),
             (visit.line, met.line, harm),
             (origin, visit.well),
             contact=min(met.contact(visit.index), visit.contact),
@@ -128,10 +124,7 @@ class DoseOrder(Check):
                 yield Violation(
                     f"The tip that touched {other.ref}, a well of a higher dose, "
                     f"{case.at(met)} entered {visit.well.ref} {case.at(visit)}.",
-                    (
-                        Site(met.line, other.ref, "touched a well of a higher dose", met.index),
-                        Site(visit.line, visit.well.ref, did, visit.index),
-                    ),
+                    (site_of(met, "touched a well of a higher dose"), site_of(visit, did)),
                     (visit.line, met.line, "falling"),
                     (other, visit.well),
                     contact=min(met.contact(visit.index), visit.contact),

@@ -6,10 +6,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from ...adapters.opentrons.instrumentation import EventKind, OperationKind
-from ...vocabulary import Site
 from ..rules import role_names
 from ..trace import EMPTY_UL, Visit, Well
-from .check import Check, Doubt, Result, Violation, microlitres
+from .check import Check, Doubt, Result, Violation, microlitres, site_of
 from .rule_context import RuleContext, at
 
 _GONE = 0.5
@@ -54,8 +53,8 @@ class DrawnOffBefore(Check):
                 f"{well.ref} still holds {microlitres(volume)} of {first}, given {at(given.line)}, "
                 f"when {title} is added {at(then.line)}.",
                 (
-                    Site(given.line, well.ref, f"received {first}, never drawn off", given.index),
-                    Site(then.line, well.ref, f"received {title} on top of it", then.index),
+                    site_of(given, f"received {first}, never drawn off"),
+                    site_of(then, f"received {title} on top of it"),
                 ),
                 (given.line, then.line),
             )
@@ -99,7 +98,7 @@ class WasteStays(Check):
                 yield Violation(
                     f"What is drawn from {waste.ref} {at(one.drawn)} goes into {into.ref} "
                     f"{case.at(visit)}: {len(emptied)} other wells were emptied into that waste.",
-                    (Site(visit.line, into.ref, "given what is waste", visit.index),),
+                    (site_of(visit, "given what is waste"),),
                     (one.drawn, waste.ref),
                 )
 

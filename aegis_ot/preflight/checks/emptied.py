@@ -6,10 +6,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from ...adapters.opentrons.instrumentation import OperationKind
-from ...vocabulary import Site
 from ..source import lexicon_of
 from ..trace import FALLS_MM, Visit, Well
-from .check import Check, Result, Violation, microlitres
+from .check import Check, Result, Violation, microlitres, site_of
 from .rule_context import RuleContext, at
 from .volumes import goes_to_waste
 
@@ -44,9 +43,7 @@ class StockSuffices(Check):
                 f"{at(first.line)}; filled to the brim it holds {microlitres(well.brim)}, and it "
                 f"runs dry {at(visit.line)}: use a larger vessel, or several with the same liquid."
             )
-            site = Site(
-                visit.line, well.ref, f"{microlitres(needed)} are drawn in all", visit.index
-            )
+            site = site_of(visit, f"{microlitres(needed)} are drawn in all")
             yield Violation(told, (site,), cause, warning=warning)
 
 
@@ -117,8 +114,8 @@ class NothingFromNothing(Check):
                     f"{one.well.ref} {done} {case.at(one)}, and holds nothing: the run fills "
                     f"{len(filled)} other wells for that, but not this one."
                 )
-                site = Site(one.line, one.well.ref, "nothing was put here", one.index)
-                yield Violation(message, (site,), ("bare", *cause))
+                sites = (site_of(one, "nothing was put here"),)
+                yield Violation(message, sites, ("bare", *cause))
 
 
 def _is_bare(case: RuleContext, visit: Visit) -> bool:

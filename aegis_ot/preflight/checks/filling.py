@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from ...vocabulary import Site
 from ..trace import Transfer, Well
-from .check import Doubt, Result, Violation
+from .check import Doubt, Result, Violation, site_of
 from .dilution import SeriesCheck, diluent_arrivals, dilutions
 from .rule_context import RuleContext, at
 from .series import Series, SeriesFinder, first_of, wells_of
@@ -42,11 +42,11 @@ class SeriesFilledFirst(SeriesCheck):
                 return
             sites = [
                 Site(step.drawn, step.source.ref, "drew the more concentrated solution"),
-                Site(step.visit.line, well.ref, "no diluent there yet", step.visit.index),
+                site_of(step.visit, "no diluent there yet"),
             ]
             if fills:
                 late = next(v for v in well.visits if v.index == fills[0])
-                sites.append(Site(late.line, well.ref, "the diluent comes only here", late.index))
+                sites.append(site_of(late, "the diluent comes only here"))
             yield Violation(
                 f"{well.ref} receives the more concentrated solution {at(step.visit.line)} "
                 + ("before its diluent." if fills else "and never any diluent."),
@@ -91,7 +91,7 @@ class SeriesFilledFrom(SeriesCheck):
                 f"{source.ref}, {at(wrong.drawn)}, where its diluent should come.",
                 (
                     Site(wrong.drawn, source.ref, "drew this in the diluent's place"),
-                    Site(wrong.visit.line, step.well.ref, "filled with it", wrong.visit.index),
+                    site_of(wrong.visit, "filled with it"),
                 ),
                 (wrong.visit.line, id(source)),
                 warning=_GUESSED if case.roles.diluent_guessed and is_buffer else "",

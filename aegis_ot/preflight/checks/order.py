@@ -10,7 +10,7 @@ from ...vocabulary import Site
 from ..rules import role_names
 from ..source import comparable
 from ..trace import Transfer, Visit, Well
-from .check import Check, Doubt, Result, Violation
+from .check import Check, Doubt, Result, Violation, site_of
 from .rule_context import RoleSet, RuleContext, at
 
 
@@ -69,7 +69,7 @@ class MixedAfter(Check):
                 continue
             yield Violation(
                 f"{well.ref} receives {what} {at(last.line)} and is never mixed afterwards.",
-                (Site(last.line, well.ref, f"received {what}, never mixed", last.index),),
+                (site_of(last, f"received {what}, never mixed"),),
                 (what,) if by_hand else (last.line, what),
                 warning=_BY_HAND if by_hand else "",
             )
@@ -113,8 +113,8 @@ class ReceivedBefore(Check):
                     f"{well.ref} receives {what} {at(begun.line)}, before the "
                     f"{title} that is added {at(line)}.",
                     (
-                        Site(begun.line, well.ref, f"received {what}", begun.index),
-                        Site(line, well.ref, f"received {title} after it", one.visit.index),
+                        site_of(begun, f"received {what}"),
+                        site_of(one.visit, f"received {title} after it"),
                     ),
                     (begun.line, line),
                 )
@@ -181,9 +181,7 @@ class RisingOrder(Check):
                     (
                         Site(was.line, before.source.ref, "dispensed the higher one", was.index),
                         Site(one.drawn, source.ref, "drew the lower one"),
-                        Site(
-                            visit.line, one.well.ref, "dispensed the lower one after", visit.index
-                        ),
+                        site_of(visit, "dispensed the lower one after"),
                     ),
                     (was.line, visit.line),
                 )

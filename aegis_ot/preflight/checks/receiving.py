@@ -9,7 +9,7 @@ from ...vocabulary import Site, WellRef
 from ..evidence import Kind
 from ..rules import role_names
 from ..trace import EMPTY_UL, Transfer, Usage, Well
-from .check import Check, Doubt, Result, Violation, microlitres
+from .check import Check, Doubt, Result, Violation, microlitres, site_of
 from .rule_context import RoleSet, RuleContext, at
 
 _MOST_TUBES = 24
@@ -315,7 +315,7 @@ def _given(case: RuleContext, one: Transfer, origin: Well) -> Violation:
         f"are dispensed into the {title} {one.well.ref} {at(line)}.",
         (
             Site(one.drawn, one.source.ref, f"drew {what}"),
-            Site(line, one.well.ref, f"gave it to the {title}", one.visit.index),
+            site_of(one.visit, f"gave it to the {title}"),
         ),
         (line, one.drawn, what, title),
         (origin, one.well),

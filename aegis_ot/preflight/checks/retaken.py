@@ -2,11 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import takewhile
 
-from ...adapters.opentrons.instrumentation import Event, Operation, OperationKind, wells_under
-from ...vocabulary import Site, counted
+from ...adapters.opentrons.instrumentation import (
+    Event,
+    EventKind,
+    Operation,
+    OperationKind,
+    wells_under,
+)
+from ...vocabulary import Site, WellRef, counted
 from ..trace import Retaking, topics_in
 from .check import Check, Doubt, Result, Violation
 from .handling import called, offsets_of, target_of
@@ -29,66 +36,81 @@ class TipsInPlace(Check):
     """
 
     def find(self, case: RuleContext) -> Iterator[Result]:
-        found: dict[tuple[object, ...], list[Retaking]] = {}
-        for one in case.trace.retakings:
-            if doubt := _why_open(one, case):
-                yield Doubt(f"{target_of(one.step)} may hold no tip {at(one.step.line)}: {doubt}")
-            elif not _takes_fewer(one):
-                found.setdefault((one.step.pipette.key, one.step.line), []).append(one)
+        found: dict[tuple[object, ...], list[tuple[Sequence[Event], Retaking]]] = {}
+        for step, emptied in case.trace.retakings:
+            pauses = _pauses(case, step, emptied)
+            if doubt := _why_open(case, step, emptied, pauses):
+                yield Doubt(f"{target_of(step)} may hold no tip {at(step.line)}: {doubt}")
+            elif not _takes_fewer(step, emptied):
+                cause = (step.pipette.key, step.line)
+                found.setdefault(cause, []).append((pauses, (step, emptied)))
         for cause, together in found.items():
-            first = min(together, key=lambda one: len(_pauses(one)))
-            warning = _ASKED.format(at(_pauses(first)[-1].line)) if _pauses(first) else ""
-            message = f"{_told(first, len(together))} {_better(first, len(together), case)}"
-            for one in (first, *together):
-                for place, taking in one.emptied.items():
-                    took = Site(taking.step.line, place, "took the tip that stood there")
-                    site = Site(one.step.line, place, "no tip stands there")
+            pauses, first = min(together, key=lambda one: len(one[0]))
+            warning = _ASKED.format(at(pauses[-1].line)) if pauses else ""
+            message = f"{_told(*first, len(together))} {_better(case, first[0], len(together))}"
+            for step, emptied in (first, *(one for _, one in together)):
+                for place, taken in emptied.items():
+                    took = Site(taken.line, place, "took the tip that stood there")
+                    site = Site(step.line, place, "no tip stands there")
                     yield Violation(message, (took, site), cause, warning=warning)
 
 
-def _pauses(one: Retaking) -> Sequence[Event]:
-    """The fewest that there were since one of its places was emptied."""
-    return min((taking.pauses for taking in one.emptied.values()), key=len)
+def _pauses(
+    case: RuleContext, step: Operation, emptied: Mapping[WellRef, Operation]
+) -> Sequence[Event]:
+    """The pauses since the last of these places was emptied."""
+    found: list[Event] = []
+    takers = set(map(id, emptied.values()))
+    for one in takewhile(lambda one: one is not step, case.trace.log):
+        if id(one) in takers:
+            found.clear()
+        elif isinstance(one, Event) and one.kind is EventKind.PAUSED:
+            found.append(one)
+    return found
 
 
-def _why_open(one: Retaking, case: RuleContext) -> str:
-    for pause in _pauses(one):
+def _why_open(
+    case: RuleContext,
+    step: Operation,
+    emptied: Mapping[WellRef, Operation],
+    pauses: Sequence[Event],
+) -> str:
+    for pause in pauses:
         said = topics_in(pause.text, case.common.pauses)
         if said.isdisjoint(_THINGS) or "rack" in pause.text.lower():
             return f"somebody may have filled the rack in the pause {at(pause.line)}"
-    takers = {taking.step.pipette.key for taking in one.emptied.values()}
-    if _takes_fewer(one) and takers != {one.step.pipette.key}:
+    takers = {taken.pipette.key for taken in emptied.values()}
+    if _takes_fewer(step, emptied) and takers != {step.pipette.key}:
         return "the column holds fewer tips than the pipette has nozzles, which may be meant"
     return ""
 
 
-def _takes_fewer(one: Retaking) -> bool:
+def _takes_fewer(step: Operation, emptied: Mapping[WellRef, Operation]) -> bool:
     """Whether eight nozzles find tips at the first places only."""
-    step = one.step
-    held = [place in one.found for place in step.wells]
+    held = [place is not None and place not in emptied for place in step.wells]
     alike = len(held) == step.pipette.channels == _EIGHT
     return alike and held[0] and held == sorted(held, reverse=True)
 
 
-def _told(one: Retaking, times: int) -> str:
-    step, taken = one.step, next(iter(one.emptied.values())).step
+def _told(step: Operation, emptied: Mapping[WellRef, Operation], times: int) -> str:
+    place, taken = next(iter(emptied.items()))
     who = "it" if taken.pipette.key == step.pipette.key else f"the {called(taken)}"
-    missing, nozzles = len(one.emptied), len(step.nozzles)
-    none = "none is there" if nozzles == 1 else f"{missing} of them are not there"
-    which = "that tip" if nozzles == 1 else "that of " + next(iter(one.emptied)).name
+    none, which = "none is there", "that tip"
+    if len(step.nozzles) > 1:
+        none, which = f"{len(emptied)} of them are not there", f"that of {place.name}"
     often = f" It does so {times} times." if times > 1 else ""
     return (
-        f"The {called(step)} goes to {target_of(step)} for {counted(nozzles, 'tip')} "
+        f"The {called(step)} goes to {target_of(step)} for {counted(len(step.nozzles), 'tip')} "
         f"{at(step.line)}, and {none}: {who} took {which} {at(taken.line)}, and nothing put it "
         f"back.{often}"
     )
 
 
-def _better(one: Retaking, times: int, case: RuleContext) -> str:
+def _better(case: RuleContext, step: Operation, times: int) -> str:
     """Places of the same rack that the run leaves full, if there are enough; else a full rack."""
-    steps = (step for step in case.trace.log if isinstance(step, Operation))
-    taken = {w for step in steps if step.kind is OperationKind.PICK_UP_TIP for w in step.wells if w}
-    rack, offsets = target_of(one.step).labware, list(offsets_of(one.step).values())
+    steps = (one for one in case.trace.log if one.kind is OperationKind.PICK_UP_TIP)
+    taken = {place for one in steps if isinstance(one, Operation) for place in one.wells if place}
+    rack, offsets = target_of(step).labware, list(offsets_of(step).values())
     used = {place.name for place in taken if place.labware == rack} | {None}
     info = case.trace.labware.get(rack)
     names = info.wells if info else ()

@@ -6,9 +6,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from ...adapters.opentrons.instrumentation import OperationKind
-from ...vocabulary import Site
 from ..trace import TO_EMPTY, Imbalance, Visit, Well
-from .check import Check, Doubt, Result, Violation, microlitres
+from .check import Check, Doubt, Result, Violation, microlitres, site_of
 from .rule_context import RuleContext, at
 
 _FEWEST_ALIKE = 3
@@ -195,7 +194,7 @@ def _violation(imbalance: Imbalance, warning: str, most: float) -> Violation:
     if imbalance.overfilled:
         later = f", and to {microlitres(most)} later" if microlitres(most) != volume else ""
         message = f"{well.ref} is filled to {volume} {at(visit.line)}{later}; it holds {limit}."
-        sites = [Site(visit.line, well.ref, f"filled to {volume}", visit.index)]
+        sites = [site_of(visit, f"filled to {volume}")]
     else:
         holds = f"which holds {limit} then"
         if well.declared:
@@ -203,10 +202,10 @@ def _violation(imbalance: Imbalance, warning: str, most: float) -> Violation:
             if any(one.brought for one in well.visits if one.index < visit.index):
                 holds = f"which holds {limit} then, its declared volume included"
         message = f"{volume} are drawn from {well.ref} {at(visit.line)}, {holds}."
-        sites = [Site(visit.line, well.ref, f"drew {volume} of {limit}", visit.index)]
+        sites = [site_of(visit, f"drew {volume} of {limit}")]
     fills = [one for one in well.visits if one.index < visit.index and one.brought]
     if fills and fills[-1].line != visit.line:
-        sites.insert(0, Site(fills[-1].line, well.ref, "last filled here", fills[-1].index))
+        sites.insert(0, site_of(fills[-1], "last filled here"))
     cause = (visit.line, imbalance.overfilled)
     told_by = "" if imbalance.overfilled else STOCK_SUFFICES
     return Violation(message, tuple(sites), cause, warning=warning, told_by=told_by)

@@ -6,8 +6,8 @@ asked elsewhere (:mod:`aegis_ot.llm`), the proposals for roles of its
 merged into the report. Standard library only.
 """
 
-from .making import check_with_dossier, make_dossier, rule_text
+from .making import make_dossier, rule_text
 from .merging import merge, no_answer
 from .proposals import quote_problem
 
-__all__ = ["check_with_dossier", "make_dossier", "merge", "no_answer", "quote_problem", "rule_text"]
+__all__ = ["make_dossier", "merge", "no_answer", "quote_problem", "rule_text"]

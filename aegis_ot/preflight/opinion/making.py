@@ -5,10 +5,10 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable, Sequence
 
-from ...adapters.opentrons.rehearsal import Recording, Script, record
+from ...adapters.opentrons.rehearsal import Recording
 from ...vocabulary import DeckItem, Dossier, RoleLine, RuleBrief, Severity, WellRef
-from ..judging import Interpretation, Options, Report, RoleEvidence, judge, missing_needs
-from ..rule_set import RuleSet, load_rules, shipped_rules
+from ..judging import Interpretation, Report, RoleEvidence, missing_needs
+from ..rule_set import shipped_rules
 from ..rules import RuleSpec
 from ..trace import places, row_column, trace_table
 
@@ -40,24 +40,6 @@ def make_dossier(reading: Interpretation, report: Report) -> Dossier:
         wanted=tuple(_wanted(reading, report)),
         findings=(*report.findings, *(waived.finding for waived in report.waived)),
     )
-
-
-def check_with_dossier(
-    script: Script,
-    rule_set: RuleSet | None = None,
-    options: Options | None = None,
-    timeout_s: float = 120.0,
-) -> tuple[Report, Dossier, Interpretation]:
-    """Rehearse a protocol, judge it, and put its dossier together.
-
-    Raises:
-        RehearsalError: It cannot be rehearsed.
-        RuleError: A rule file cannot be used.
-    """
-    recording = record(script, timeout_s=timeout_s)
-    reading = Interpretation(recording, rule_set or load_rules(), options)
-    report = judge(reading)
-    return report, make_dossier(reading, report), reading
 
 
 def _deck(reading: Interpretation) -> Iterable[DeckItem]:

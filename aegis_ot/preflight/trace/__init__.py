@@ -3,7 +3,7 @@
 Door: :func:`build_trace` gives a :class:`Trace`.
 """
 
-from .building import FALLS_MM, TO_EMPTY, build_trace, touched_by_tip
+from .building import FALLS_MM, TO_EMPTY, build_trace
 from .geometry import Contact, row_column
 from .loads import Given, Load, loads_of
 from .model import EMPTY_UL, Met, Tip, Transfer, Visit, Well
@@ -35,6 +35,5 @@ __all__ = [
     "places",
     "row_column",
     "topics_in",
-    "touched_by_tip",
     "trace_table",
 ]

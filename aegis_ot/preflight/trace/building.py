@@ -17,7 +17,7 @@ from ...adapters.opentrons.instrumentation import (
     Operation,
     OperationKind,
 )
-from ...adapters.opentrons.rehearsal import Record, Recorder
+from ...adapters.opentrons.rehearsal import Record
 from ...vocabulary import WellRef
 from .geometry import CLEARANCE_MM, Contact
 from .model import Layer, Tip, Transfer, Visit, Well
@@ -162,7 +162,6 @@ class _Builder:
                 self._box.refill_rack(key, returned_too=True)
         for key in said.replaced:
             self._replace(key)
-        self._box.pause(event)
         if said.volumes_unsure:
             self._plates.forget_volumes()
 
@@ -390,16 +389,3 @@ def _is_in_pairs(wells: Sequence[WellRef | None]) -> bool:
 def _slack(volume: float) -> float:
     """Rounding that volumes computed in a protocol may show, µL."""
     return max(0.1, abs(volume) * 2e-3)
-
-
-def touched_by_tip(recorder: Recorder, well: WellRef) -> frozenset[WellRef] | None:
-    """The wells that the tip has touched which last dispensed into ``well``.
-
-    The run so far is read for the worst: a well of which nothing is known counts as one that
-    holds liquid, so a tip that went below its upper third touched it. ``None`` if no tip did.
-    """
-    trace = build_trace(recorder.log, recorder.labware, {}, lambda ref: True)
-    for visit in reversed(trace.visits):
-        if visit.well.ref == well and visit.kind is OperationKind.DISPENSE:
-            return frozenset(touched.ref for touched in visit.tip.touched)
-    return None

@@ -3,34 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
 
-from ...adapters.opentrons.instrumentation import Event, Operation
+from ...adapters.opentrons.instrumentation import Operation
 from ...vocabulary import WellRef
 from .model import Tip
 
-
-@dataclass(eq=False)
-class Taking:
-    """A pick-up that emptied places of a rack, and the pauses since then."""
-
-    step: Operation
-    pauses: list[Event] = field(default_factory=list)
-
-
-@dataclass(frozen=True)
-class Retaking:
-    """A pick-up from places that the run has emptied before.
-
-    Attributes:
-        step: The pick-up.
-        emptied: Those places, with what emptied each.
-        found: The places where it finds tips.
-    """
-
-    step: Operation
-    emptied: Mapping[WellRef, Taking]
-    found: Sequence[WellRef]
+Retaking = tuple[Operation, Mapping[WellRef, Operation]]
+"""A pick-up from places of a rack that the run has emptied: those, with the pick-up that did."""
 
 
 class TipBox:
@@ -42,7 +21,7 @@ class TipBox:
         self.bare: set[str] = set()
         self._returned: dict[WellRef, Tip] = {}
         self._on: dict[tuple[str, str], Tip] = {}
-        self._taken: dict[WellRef, Taking] = {}
+        self._taken: dict[WellRef, Operation] = {}
         self._seen: set[str] = set()
         self.tips: list[Tip] = []
         self.retakings: list[Retaking] = []
@@ -53,29 +32,23 @@ class TipBox:
         Nozzles beside the rack, or over places whose tips are gone, stay bare: that is how a
         multi-channel pipette is used with one tip.
         """
-        pipette, taking, emptied = step.pipette.key, Taking(step), {}
+        pipette, emptied = step.pipette.key, dict[WellRef, Operation]()
         self._seen.add(pipette)
         lead = next((home for home in racks if home is not None), None)
         for nozzle, home in zip(step.nozzles, racks, strict=False):
             tip = self._returned.pop(home, None) if home is not None else None
-            if home in self._taken:
+            if home is not None and home in self._taken:
                 emptied[home] = self._taken[home]
             gone = home is None or home in emptied or home.labware in self.bare
             if tip is None and gone and lead is not None and home != lead:
                 self._on.pop((pipette, nozzle), None)
                 continue
             if home is not None:
-                self._taken.setdefault(home, taking)
+                self._taken.setdefault(home, step)
             tip = self._on[(pipette, nozzle)] = tip or self._new()
             tip.session += 1
         if emptied:
-            found = [home for home, one in self._taken.items() if one is taking]
-            self.retakings.append(Retaking(step, emptied, found))
-
-    def pause(self, event: Event) -> None:
-        """Somebody stands at the robot, and may put tips where some were taken."""
-        for taking in dict.fromkeys(self._taken.values()):
-            taking.pauses.append(event)
+            self.retakings.append((step, emptied))
 
     def drop(self, pipette: str, nozzles: Iterable[str], racks: Iterable[WellRef | None]) -> None:
         """Take the tips off; those put back into a rack keep their history there."""
