@@ -42,9 +42,9 @@ class TipsInPlace(Check):
             if doubt := _why_open(case, step, emptied, pauses):
                 yield Doubt(f"{target_of(step)} may hold no tip {at(step.line)}: {doubt}")
             elif not _takes_fewer(step, emptied):
-                cause = (step.pipette.key, step.line)
+                cause: tuple[object, ...] = (step.pipette.key, step.line)
                 found.setdefault(cause, []).append((pauses, (step, emptied)))
-        for cause, together in found.items():
+        for place_of, together in found.items():
             pauses, first = min(together, key=lambda one: len(one[0]))
             warning = _ASKED.format(at(pauses[-1].line)) if pauses else ""
             message = f"{_told(*first, len(together))} {_better(case, first[0], len(together))}"
@@ -52,7 +52,7 @@ class TipsInPlace(Check):
                 for place, taken in emptied.items():
                     took = Site(taken.line, place, "took the tip that stood there")
                     site = Site(step.line, place, "no tip stands there")
-                    yield Violation(message, (took, site), cause, warning=warning)
+                    yield Violation(message, (took, site), place_of, warning=warning)
 
 
 def _pauses(

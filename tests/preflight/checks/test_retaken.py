@@ -208,4 +208,4 @@ def test_places_are_counted_as_a_rack_on_the_bench_has_them(
         if back:
             rack[back] = 1
     retaken = bench.trace().retakings
-    assert [one.step.line for one in retaken] == missing
+    assert [step.line for step, _ in retaken] == missing
