@@ -21,7 +21,6 @@ from aegis_ot.simulation.truth import FrameTruth, TipTruth
 from aegis_ot.vision.scorers.pair_strips import Floats, half_widths, strip_of, wet_rows
 from aegis_ot.vision.tips import TipGeometry, tip_for
 from aegis_ot.vision.types import FREE
-from aegis_ot.vocabulary import KeyframeKind
 from aegis_ot_lab.drawing.dataset import typical_volume
 from aegis_ot_lab.drawing.plans import FAILURES, contents_of
 from aegis_ot_lab.drawing.random_sessions import random_session
@@ -35,8 +34,6 @@ _WATER, _WATER_TRACED = 0.3, 0.6
 """Share of plates with water; a drawn tip's water shows much less than a real one's."""
 _VARIED = 0.3
 """Share of plates whose wells get volumes of their own."""
-_APART = 0.35
-"""Share of plates whose two frames are at two places: a watched robot's, or another source's."""
 _OF_PLATE = np.array((0.012, 0.03, 0.012, 0.012))
 _OF_WELL = np.array((0.004, 0.006, 0.004, 0.004))
 _OF_FRAME = np.full(4, 0.003)
@@ -94,7 +91,7 @@ def draw_pairs(seed: int, plates: int, wells: int = 10, *, traced: bool = False)
         tip = tip_for(pipette)
         water = rng.random() < (_WATER_TRACED if traced else _WATER)
         reagent = "water" if water else str(rng.choice(list(DYES)))
-        apart, varied = rng.random() < _APART, rng.random() < _VARIED
+        varied = rng.random() < _VARIED
         volume = typical_volume(rng, tip, of_any_tip=rng.random() < 0.6)
         off = rng.normal(0, 1, 4) * _OF_PLATE
         for well in range(wells):
@@ -103,7 +100,7 @@ def draw_pairs(seed: int, plates: int, wells: int = 10, *, traced: bool = False)
             failure = "" if well < _NORMALS else _KINDS[int(rng.integers(len(_KINDS)))]
             contents, kept = contents_of(failure, volume, rng, session.film)
             held = [contents[kind] for kind in FREE]
-            found = _pair(rng, session, tip, reagent, held, off, apart, render)
+            found = _pair(rng, session, tip, reagent, held, off, render)
             if found is not None:
                 yield Pair(
                     plate + 10_000 * seed,
@@ -122,7 +119,6 @@ def _pair(
     reagent: str,
     contents: list[TipContent],
     off: NDArray[np.float64],
-    apart: bool,
     render: Render,
 ) -> tuple[NDArray[np.uint8], Floats] | None:
     name = f"{'ABCDEFGH'[rng.integers(8)]}{rng.integers(1, 13)}"
@@ -130,15 +126,11 @@ def _pair(
         contents[1] = replace(contents[1], drop_ul=min(4.0, 0.02 * tip.nominal_ul))
     scene = place_tip(session, FREE[1], tip, (contents[1],), DYES[reagent], destination=name)
     x, y, z = scene.orifice
-    place = (x, y, z + float(rng.uniform(-15, 10)))
-    if apart:
-        source = place_tip(session, KeyframeKind.ASPIRATE, tip, (contents[0],), source=name)
-        x, y, _ = source.orifice
-    before = (x, y, place[2])
+    scene = replace(scene, orifice=(x, y, z + float(rng.uniform(-15, 10))))
     off = off + rng.normal(0, 1, 4) * _OF_WELL
     strips, wet = [], []
-    for content, at in zip(contents, (before, place), strict=True):
-        jpeg, truth = render(replace(scene, contents=(content,), orifice=at), session, rng)
+    for content in contents:
+        jpeg, truth = render(replace(scene, contents=(content,)), session, rng)
         shown = truth.tips[truth.front]
         collar, orifice = _axis(shown, off + rng.normal(0, 1, 4) * _OF_FRAME)
         if shown.collar[1] < -0.1 * float(np.hypot(*(orifice - collar))):

@@ -19,8 +19,9 @@ from .check import Check, Doubt, Result, Violation
 from .handling import called, offsets_of, target_of
 from .rule_context import RuleContext, at
 
-_EIGHT = 8
-"""Of so many nozzles some are held beside a rack, or over gaps in it, to take fewer tips."""
+Places = Mapping[WellRef, Operation]
+"""Of a rack, each with what took the tip there."""
+
 _THINGS = frozenset({"plate", "trough", "tips", "covers"})
 _ASKED = "If somebody fills the rack in the pause {}, let its message say so."
 
@@ -55,26 +56,16 @@ class TipsInPlace(Check):
                     yield Violation(message, (took, site), place_of, warning=warning)
 
 
-def _pauses(
-    case: RuleContext, step: Operation, emptied: Mapping[WellRef, Operation]
-) -> Sequence[Event]:
+def _pauses(case: RuleContext, step: Operation, emptied: Places) -> Sequence[Event]:
     """The pauses since the last of these places was emptied."""
-    found: list[Event] = []
+    steps = list(takewhile(lambda one: one is not step, case.trace.log))
     takers = set(map(id, emptied.values()))
-    for one in takewhile(lambda one: one is not step, case.trace.log):
-        if id(one) in takers:
-            found.clear()
-        elif isinstance(one, Event) and one.kind is EventKind.PAUSED:
-            found.append(one)
-    return found
+    last = max(number for number, one in enumerate(steps) if id(one) in takers)
+    since = (one for one in steps[last:] if isinstance(one, Event))
+    return [one for one in since if one.kind is EventKind.PAUSED]
 
 
-def _why_open(
-    case: RuleContext,
-    step: Operation,
-    emptied: Mapping[WellRef, Operation],
-    pauses: Sequence[Event],
-) -> str:
+def _why_open(case: RuleContext, step: Operation, emptied: Places, pauses: Sequence[Event]) -> str:
     for pause in pauses:
         said = topics_in(pause.text, case.common.pauses)
         if said.isdisjoint(_THINGS) or "rack" in pause.text.lower():
@@ -85,14 +76,14 @@ def _why_open(
     return ""
 
 
-def _takes_fewer(step: Operation, emptied: Mapping[WellRef, Operation]) -> bool:
-    """Whether eight nozzles find tips at the first places only."""
+def _takes_fewer(step: Operation, emptied: Places) -> bool:
+    """Whether eight nozzles find tips at the first places only: they are held so on purpose."""
     held = [place is not None and place not in emptied for place in step.wells]
-    alike = len(held) == step.pipette.channels == _EIGHT
+    alike = len(held) == step.pipette.channels == 8
     return alike and held[0] and held == sorted(held, reverse=True)
 
 
-def _told(step: Operation, emptied: Mapping[WellRef, Operation], times: int) -> str:
+def _told(step: Operation, emptied: Places, times: int) -> str:
     place, taken = next(iter(emptied.items()))
     who = "it" if taken.pipette.key == step.pipette.key else f"the {called(taken)}"
     none, which = "none is there", "that tip"

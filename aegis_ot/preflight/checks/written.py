@@ -36,14 +36,25 @@ class WrittenIsMoved(Check):
 
     def _found(self, case: RuleContext) -> Iterator[Violation]:
         for step in case.trace.log:
-            if isinstance(step, Event) and step.kind is EventKind.CUT_SHORT:
-                yield from _cut_short(step)
+            if isinstance(step, Event):
+                yield from _cut_short(step) if step.kind is EventKind.CUT_SHORT else ()
+            elif step.mixing and step.written == 0:
+                yield from _full_mix(step)
         for load in case.loads:
             found = _drawn_full(case, load)
             yield from found or _given_otherwise(case, load)
             yield from _short_by_the_gap(case, load)
         for before, load in pairwise(case.loads):
             yield from _taken_along(case, before, load)
+
+
+def _full_mix(step: Operation) -> Iterator[Violation]:
+    if step.well is not None and step.kind is OperationKind.ASPIRATE:
+        told = (
+            f"A mix of 0 µL is written {at(step.line)}; at this apiLevel the {called(step)} mixes "
+            f"a full tip, {microlitres(step.volume)}, in {step.well}: leave such mixes out."
+        )
+        yield _violation(told, step, step.well, "mix", "It goes back where it came from.")
 
 
 def _cut_short(event: Event) -> Iterator[Violation]:
