@@ -198,8 +198,10 @@ class PairScorer:
         """A scorer from a model file.
 
         Raises:
-            ModelError: If arrays are missing or their shapes do not fit.
+            ModelError: If arrays are missing or their shapes do not fit, or the network's file is
+                missing or damaged: a run says so before its first well.
         """
+        _network()
         scorer = cls()
         try:
             scorer.known = {

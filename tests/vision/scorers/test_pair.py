@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from aegis_ot.errors import ModelError
-from aegis_ot.vision.detection.session import read_weights
+from aegis_ot.vision.detection.session import open_session, read_weights
 from aegis_ot.vision.models import ModelFile
 from aegis_ot.vision.scorers.pair import FORMAT, Pair, PairScorer, pair_of, read_pair
 from aegis_ot.vision.scorers.pair_strips import COLUMNS, ROWS, U, strip_of, wet_rows
@@ -164,3 +164,12 @@ def test_damaged_weights_are_refused(
     told.write_text(description if isinstance(description, str) else json.dumps(description))
     with pytest.raises(ModelError, match=said):
         read_weights(model, told, FORMAT)
+
+
+def test_a_model_whose_network_is_gone_is_refused_when_it_is_loaded(monkeypatch) -> None:
+    """And not at the first well of a run."""
+    model = ModelFile("pair", {}, {"pipettes": []})
+    PairScorer.from_model(model)
+    monkeypatch.setattr("aegis_ot.vision.scorers.pair._network", lambda: open_session(b"", 1, "It"))
+    with pytest.raises(ModelError, match="no network that onnxruntime can run"):
+        PairScorer.from_model(model)
