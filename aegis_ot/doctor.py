@@ -27,7 +27,7 @@ from .sidecar.config import CameraSettings, SidecarConfig, is_loopback
 from .sidecar.store import DATABASE, Store
 from .sidecar.token_file import TOKEN_FILE
 from .vision.camera import Camera
-from .vision.models import load_model
+from .vision.models import SHIPPED, load_model
 from .vocabulary import counted, without_secrets
 from .worldmodel.reach import Smallest, limits_in, normals_in, shortcomings, smallest_in
 
@@ -206,18 +206,18 @@ def _world_model(config: SidecarConfig) -> Iterator[Examination]:
     if path is None and config.cascade.preset == "paper":
         yield Examination(name, "ok", "none: every run learns from its own first wells")
         return
+    try:
+        load_scorer(path or SHIPPED)
+        model = load_model(path or SHIPPED)
+    except AegisError as error:
+        other = "Reinstall aegis_ot" if path is None else "Name another file in cascade.model"
+        yield Examination(name, "bad", str(error), f"{other}; until then no sidecar starts.")
+        return
     if path is None:
         said = "the shipped one, of simulated wells: what it would catch here is not known"
         yield Examination(
             name, "ok", said, "aegis-ot fit makes one of your own wells, which tells it."
         )
-        return
-    try:
-        load_scorer(path)
-        model = load_model(path)
-    except AegisError as error:
-        todo = "Name another file in cascade.model, or leave it out; until then no sidecar starts."
-        yield Examination(name, "bad", str(error), todo)
         return
     lacks = " ".join(shortcomings(model))
     said = f"{path}: {model.kind}, of {counted(normals_in(model), 'normal well')}"

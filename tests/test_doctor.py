@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 
 from aegis_ot.doctor import Examination, examine
+from aegis_ot.errors import ModelError
 from aegis_ot.sidecar import SidecarConfig, running_sidecar
 from aegis_ot.sidecar.aiming import measure
 from aegis_ot.sidecar.config import CameraSettings, CascadeSettings, ModelSettings
@@ -110,6 +111,18 @@ def test_what_is_wrong_is_said(
     assert "nofile.model" in checks["world model"].said
     assert "ANTHROPIC_API_KEY" in checks["language model"].todo
     assert all(checks[name].todo for name in bad)
+
+
+def test_a_shipped_model_that_cannot_be_read_is_not_called_ok(
+    sound: SidecarConfig, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def broken() -> None:
+        raise ModelError("pair_network.onnx is damaged")
+
+    monkeypatch.setattr("aegis_ot.vision.scorers.pair._network", broken)
+    check = found(sound)["world model"]
+    assert (check.state, check.said) == ("bad", "pair_network.onnx is damaged")
+    assert "Reinstall aegis_ot" in check.todo
 
 
 def test_it_says_what_the_world_model_would_catch(sound: SidecarConfig, tmp_path: Path) -> None:

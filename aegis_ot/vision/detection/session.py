@@ -39,7 +39,7 @@ def read_weights(
             f"{description.name}; {remedy}."
         ) from error
     except ValueError as error:
-        raise ModelError(f"{description.name} is not valid JSON: {error}") from error
+        raise ModelError(f"{description.name} is not valid JSON: {error}; {remedy}.") from error
     if not isinstance(content, dict) or content.get("format") != layout:
         other = content.get("format") if isinstance(content, dict) else content
         raise ModelError(f"{description.name} describes {other!r}; this version reads {layout!r}.")
@@ -47,7 +47,7 @@ def read_weights(
     if digest != content.get("sha256"):
         raise ModelError(
             f"{model.name} is damaged or is not the file that {description.name} describes: its "
-            f"SHA-256 is {digest[:12]}..., expected {str(content.get('sha256'))[:12]}..."
+            f"SHA-256 is {digest[:12]}..., expected {str(content.get('sha256'))[:12]}...; {remedy}."
         )
     return weights, content
 
