@@ -102,9 +102,11 @@ def test_a_failed_step_is_tried_again_from_the_page(
                 for value in ("retry", "resume"):
                     until = time.monotonic() + 60
                     while time.monotonic() < until:
+                        overview = page.overview()
+                        known = "trajectories" in overview  # the run has reached the sidecar
                         found = [
                             one
-                            for one in situations(page.overview(), 0.0)
+                            for one in (situations(overview, 0.0) if known else ())
                             if one.title == "A step failed"
                         ]
                         if found and found[0].answers:
