@@ -136,7 +136,7 @@ def _judge(recording: Recording, protocol: Any, settings: Settings) -> Layer1:
         reading = read_for_guard(recording, settings)
         report = judge(reading)
     if settings.opinion == "ask":
-        from .preflight.asking import with_opinion
+        from .model_opinion import with_opinion
 
         report = with_opinion(report, reading, settings, protocol)
     errors = errors_of(report)

@@ -34,14 +34,9 @@ GUARD = "aegis_ot: "
 _FREE_S = 5.0
 """So long judging may take in all before it has to keep to its share of the run, s."""
 _SHARE = 0.1
-_ENTERS = frozenset(
-    {
-        OperationKind.ASPIRATE,
-        OperationKind.DISPENSE,
-        OperationKind.BLOW_OUT,
-        OperationKind.TOUCH_TIP,
-    }
-)
+_ENTERS = (
+    OperationKind.ASPIRATE, OperationKind.DISPENSE, OperationKind.BLOW_OUT, OperationKind.TOUCH_TIP
+)  # fmt: skip
 
 
 @dataclass(frozen=True)

@@ -25,7 +25,7 @@ from aegis_ot.llm import (
     make_backend,
 )
 from aegis_ot.llm.layer1_prompt import hybrid_request
-from aegis_ot.preflight.asking import ask_sidecar
+from aegis_ot.model_opinion import ask_sidecar
 from aegis_ot.sidecar import SidecarConfig, create_app
 from aegis_ot.sidecar.config import CameraSettings
 from aegis_ot.vocabulary import to_json

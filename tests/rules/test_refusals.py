@@ -81,7 +81,7 @@ REFUSED_BY_BOTH = [
     (lambda d: d.update(schema=3), "schema: expected 2, found 3"),
     (
         lambda d: d.update(series={"wells": ["stop"], "stock": ["stop"], "diluent": ["stop"]}),
-        "mine.json: series: unknown field 'wells'; known are stock, diluent, diluent_else",
+        "mine.json: series: 'wells' is no field any more: leave it out",
     ),
 ]
 

@@ -48,7 +48,7 @@ class TipsInPlace(Check):
         for place_of, together in found.items():
             pauses, first = min(together, key=lambda one: len(one[0]))
             warning = _ASKED.format(at(pauses[-1].line)) if pauses else ""
-            message = f"{_told(*first, len(together))} {_better(case, first[0], len(together))}"
+            message = f"{_message(*first, len(together))} {_remedy(case, first[0], len(together))}"
             for step, emptied in (first, *(one for _, one in together)):
                 for place, taken in emptied.items():
                     took = Site(taken.line, place, "took the tip that stood there")
@@ -83,7 +83,7 @@ def _takes_fewer(step: Operation, emptied: Places) -> bool:
     return alike and held[0] and held == sorted(held, reverse=True)
 
 
-def _told(step: Operation, emptied: Places, times: int) -> str:
+def _message(step: Operation, emptied: Places, times: int) -> str:
     place, taken = next(iter(emptied.items()))
     who = "it" if taken.pipette.key == step.pipette.key else f"the {called(taken)}"
     none, which = "none is there", "that tip"
@@ -97,7 +97,7 @@ def _told(step: Operation, emptied: Places, times: int) -> str:
     )
 
 
-def _better(case: RuleContext, step: Operation, times: int) -> str:
+def _remedy(case: RuleContext, step: Operation, times: int) -> str:
     """Places of the same rack that the run leaves full, if there are enough; else a full rack."""
     steps = (one for one in case.trace.log if one.kind is OperationKind.PICK_UP_TIP)
     taken = {place for one in steps if isinstance(one, Operation) for place in one.wells if place}

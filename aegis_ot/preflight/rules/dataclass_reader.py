@@ -103,6 +103,8 @@ def read_dataclass(cls: type[T], data: Any, where: str) -> T:
     fields = {f.name: f for f in public_fields(cls)}
     unknown = [key for key in data if key not in fields]
     if unknown:
+        if instead := getattr(cls, "DROPPED", {}).get(unknown[0]):
+            raise RuleError(f"{where}: {unknown[0]!r} is no field any more: {instead}")
         raise RuleError(f"{where}: unknown field {unknown[0]!r}; known are {', '.join(fields)}")
     values: dict[str, Any] = {}
     for name, f in fields.items():

@@ -9,13 +9,19 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import MISSING, dataclass, field
 from functools import cached_property
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 from .dataclass_reader import NOT_EMPTY, Name, Word
 
 SCHEMA_VERSION = 2
 READABLE = (1, SCHEMA_VERSION)
-"""Schema 1 without the fields that are gone is schema 2."""
+"""Schema 1 without the fields that are gone (``DROPPED``) is schema 2."""
+
+_NAME = "name such wells in the protocol, load a liquid, or give them in the guard's `roles`"
+_BY_NAME = (
+    "single_with single_beside used_like gets in_place_of common_to called_alike_beside passed_on "
+    "feeds feeds_beside"
+)
 
 
 def role_names(required: bool = False) -> Any:
@@ -41,6 +47,7 @@ class Signal:
     weight: float = 1.0
     defining: bool = True
     roles: tuple[str, ...] = role_names()
+    DROPPED: ClassVar[Mapping[str, str]] = {"once": "leave it out: each signal counts once"}
 
 
 Shape = Literal["chain", "pooling", "reactions"]
@@ -72,6 +79,7 @@ class RoleSignal:
     """
 
     roles: tuple[str, ...] = role_names(required=True)
+    DROPPED: ClassVar[Mapping[str, str]] = {"weight": "leave it out: it makes the family known"}
 
 
 @dataclass(frozen=True)
@@ -130,6 +138,13 @@ class RoleSpec:
     without: tuple[str, ...] = role_names()
     one_to_one: bool = False
     loaded: Literal["", "shared", "single", "kept"] = ""
+    DROPPED: ClassVar[Mapping[str, str]] = {
+        **dict.fromkeys(_BY_NAME.split(), _NAME),
+        "holds": "load the liquid, and list its role in `receives`",
+        "undosed": "give the wells of dose 0 a name of their own",
+        "replicated": "name the wells of each plate",
+        "receives_with": "leave it out: `receives` alone decides",
+    }
 
 
 @dataclass(frozen=True)
@@ -146,6 +161,7 @@ class SeriesSpec:
     stock: tuple[str, ...] = role_names(required=True)
     diluent: tuple[str, ...] = role_names(required=True)
     diluent_else: tuple[str, ...] = role_names()
+    DROPPED: ClassVar[Mapping[str, str]] = {"wells": "leave it out"}
 
 
 @dataclass(frozen=True)

@@ -259,15 +259,15 @@ def test_nothing_written_is_nothing_moved(level: str, target: str, severity: str
         assert "gives 300 µL of them to A2 of NEST" in message
 
 
-@pytest.mark.parametrize(("level", "told_of"), [("2.13", True), ("2.16", False)])
-def test_a_mix_of_nothing_that_mixes_a_full_tip_is_told(level: str, told_of: bool) -> None:
+@pytest.mark.parametrize(("level", "warned"), [("2.13", True), ("2.16", False)])
+def test_a_mix_of_nothing_that_mixes_a_full_tip_is_told(level: str, warned: bool) -> None:
     code = """
         pip.pick_up_tip()
         pip.mix(3, 0, trough["A1"])
         pip.drop_tip()
     """
     message = told(ot2(code, level), "HND-4")
-    assert ("mixes a full tip, 300 µL, in" in message) is told_of
+    assert ("mixes a full tip, 300 µL, in" in message) is warned
 
 
 def test_all_that_is_in_the_tip_for_a_tenth_of_nothing() -> None:

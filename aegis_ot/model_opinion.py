@@ -15,11 +15,11 @@ from contextlib import closing
 from dataclasses import replace
 from typing import Any
 
-from ..http_client import HttpClient
-from ..settings import Settings
-from ..vocabulary import Dossier, Opinion, Undecided, from_json, to_json
-from .judging import MODEL, Interpretation, Report
-from .opinion import make_dossier, merge
+from .http_client import HttpClient
+from .preflight.judging import MODEL, Interpretation, Report
+from .preflight.opinion import make_dossier, merge
+from .settings import Settings
+from .vocabulary import Dossier, Opinion, Undecided, from_json, to_json
 
 LIVE_WAIT_S = 1.0
 """How long a live run waits for an opinion that should be remembered already, s."""
