@@ -15,7 +15,7 @@ from .check import Check, Doubt, Violation
 from .dilution import SeriesDirection, SeriesMixed, SeriesTip
 from .dose_order import DoseOrder
 from .drawn_off import DrawnOffBefore, WasteStays
-from .emptied import NothingFromNothing, StockSuffices
+from .emptied import DrawsReachLiquid, NothingFromNothing, StockSuffices
 from .filling import SeriesFilledFirst, SeriesFilledFrom
 from .handling import TipAboveBottom, TipsOverWells
 from .order import MixedAfter, ReceivedBefore, RisingOrder
@@ -50,6 +50,7 @@ CHECKS: dict[str, type[Check]] = {
     "volume_in_range": VolumeInRange,
     "written_is_moved": WrittenIsMoved,
     "nothing_from_nothing": NothingFromNothing,
+    "draws_reach_liquid": DrawsReachLiquid,
     "stock_suffices": StockSuffices,
 }
 

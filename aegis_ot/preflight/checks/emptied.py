@@ -1,13 +1,14 @@
-"""Checks on wells from which more is drawn than they can hold, or in which nothing ever was."""
+"""Checks on draws of nothing: of more than a well can hold, of what never was there, from above."""
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from ...adapters.opentrons.instrumentation import OperationKind
 from ..source import lexicon_of
-from ..trace import FALLS_MM, Visit, Well
+from ..trace import FALLS_MM, Above, Visit, Well
 from .check import Check, Result, Violation, microlitres, site_of
 from .rule_context import RuleContext, at
 from .volumes import goes_to_waste
@@ -151,3 +152,40 @@ def _filled_elsewhere(
 def _was_filled(visit: Visit) -> bool:
     """Whether the run itself had put something into a well before it drew from it."""
     return not visit.well.assumed and not visit.well.prefilled and visit.well.fed
+
+
+@dataclass(frozen=True)
+class DrawsReachLiquid(Check):
+    """No tip draws from above the liquid.
+
+    At a well's mouth, before a further draw, and into a tip that holds liquid, air is drawn on
+    purpose. A mix at several heights rinses the tip.
+    """
+
+    def find(self, case: RuleContext) -> Iterator[Result]:
+        found: dict[tuple[object, ...], list[Above]] = {}
+        for one in case.trace.above:
+            place = (one.visit.line, one.visit.caller, one.visit.well.ref.labware)
+            meant = one.visit.mixing or _draws_next(one.visit)
+            if one.visit.well.ref not in case.waste and not meant:
+                found.setdefault(place, []).append(one)
+        for cause, together in found.items():
+            (visit, height, level, held), well = together[0], together[0].visit.well
+            amount = f"the {microlitres(held)} that are left"
+            if well.declared is not None:
+                amount += ", as declared,"
+            message = (
+                f"{microlitres(visit.volume)} are drawn from {well.ref} {case.at(visit)} with the "
+                f"tip {height:.3g} mm above its bottom, and {amount} reach to {level:.3g} mm: "
+                "it draws air. Aim lower."
+            )
+            for one in together:
+                site = site_of(one.visit, "the tip is above the liquid")
+                yield Violation(message, (site,), cause)
+
+
+def _draws_next(visit: Visit) -> bool:
+    """Whether the tip goes on to draw: it took its air first."""
+    visits = visit.tip.visits
+    after = bisect_right(visits, visit.index, key=lambda one: one.index)
+    return after < len(visits) and visits[after].kind is OperationKind.ASPIRATE

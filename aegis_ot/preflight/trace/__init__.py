@@ -6,7 +6,7 @@ Door: :func:`build_trace` gives a :class:`Trace`.
 from .building import FALLS_MM, TO_EMPTY, build_trace
 from .geometry import Contact, row_column
 from .loads import Given, Load, loads_of
-from .model import EMPTY_UL, Met, Tip, Transfer, Visit, Well
+from .model import EMPTY_UL, Above, Met, Tip, Transfer, Visit, Well
 from .pauses import topics_in
 from .table import places, trace_table
 from .tips import Retaking
@@ -16,6 +16,7 @@ __all__ = [
     "EMPTY_UL",
     "FALLS_MM",
     "TO_EMPTY",
+    "Above",
     "Beside",
     "Contact",
     "Given",

@@ -20,7 +20,7 @@ from ...adapters.opentrons.instrumentation import (
 from ...adapters.opentrons.rehearsal import Record
 from ...vocabulary import WellRef
 from .geometry import CLEARANCE_MM, Contact
-from .model import Layer, Tip, Transfer, Visit, Well
+from .model import Above, Layer, Tip, Transfer, Visit, Well
 from .pauses import Words, read_pause, topics_in
 from .plates import Plates
 from .tips import TipBox
@@ -311,6 +311,8 @@ class _Builder:
             well.assumed = True
         visit = self._visit(step, tip, well)
         visit.volume = step.volume
+        if not (well.empty or any(one.source for one in tip.layers)):
+            self._note_above(visit, step)
         visit.contact = Contact.WET
         tip.touch(visit)
         if step.from_bottom is not None:
@@ -327,6 +329,15 @@ class _Builder:
             self._trace.imbalances.append(Imbalance(visit, False, step.volume, held))
         tip.layers.append(Layer(well, step.volume, liquid, step.line))
         self._last[tip] = visit
+
+    def _note_above(self, visit: Visit, step: Operation) -> None:
+        well, height, inside = visit.well, step.from_bottom, visit.well.geometry
+        if not well.known or height is None or inside is None or step.from_liquid is not None:
+            return
+        at_the_mouth = (step.from_top or 0.0) >= -CLEARANCE_MM  # where air is drawn on purpose
+        if not at_the_mouth and inside.volume_below(height - CLEARANCE_MM) > well.volume:
+            level = inside.level_of(well.volume)
+            self._trace.above.append(Above(visit, height, level, well.volume))
 
     def _give(self, step: Operation, tip: Tip, well: Well, parts: list[Layer]) -> None:
         visit = self._visit(step, tip, well)

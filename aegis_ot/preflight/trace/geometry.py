@@ -68,6 +68,14 @@ class Geometry:
     def _volume_below(self, height: float) -> float:
         return self._scale * self._reckoned(min(round(height, 2), self.depth))
 
+    def level_of(self, volume: float) -> float:
+        """How high so many µL stand above the bottom, mm."""
+        low, high = 0.0, self.depth
+        while high - low > 0.05:
+            middle = (low + high) / 2
+            low, high = (middle, high) if self.volume_below(middle) <= volume else (low, middle)
+        return low
+
     def is_high(self, height: float) -> bool:
         """Whether a height above the bottom is in the upper third, where no liquid is expected."""
         return height >= UPPER_PART * self.depth

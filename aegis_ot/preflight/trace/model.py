@@ -323,3 +323,19 @@ class Transfer(NamedTuple):
     volume: float
     liquid: Composition
     drawn: int | None
+
+
+class Above(NamedTuple):
+    """A draw from above the liquid.
+
+    Attributes:
+        visit: The draw.
+        height: Of the tip's end over the well's bottom, mm.
+        level: Of the liquid, mm.
+        held: What the well held, µL.
+    """
+
+    visit: Visit
+    height: float
+    level: float
+    held: float

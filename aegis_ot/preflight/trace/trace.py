@@ -9,7 +9,7 @@ from functools import cache, cached_property
 
 from ...adapters.opentrons.instrumentation import Event, LabwareInfo, Operation, OperationKind
 from ...vocabulary import WellRef
-from .model import Tip, Transfer, Visit, Well
+from .model import Above, Tip, Transfer, Visit, Well
 from .tips import Retaking
 
 PlaceKey = tuple[str, int, str]
@@ -93,6 +93,7 @@ class Trace:
         callers: By line of a function that did something, the lines that called the function.
         log: What all this was read from.
         beside: Each time that tips stood over no well, as told.
+        above: Draws from above a well's liquid by tips that held none.
         retakings: Pick-ups from places of a rack that the run has emptied before.
         in_pairs: By pipette, the labware over which only every other tip has a well of its own.
         overdrawn: Wells from which more was drawn than they can hold, with the first such draw.
@@ -114,6 +115,7 @@ class Trace:
     overdrawn: dict[Well, Visit] = field(default_factory=dict)
     in_pairs: dict[str, set[str]] = field(default_factory=dict)
     retakings: list[Retaking] = field(default_factory=list)
+    above: list[Above] = field(default_factory=list)
 
     @cached_property
     def links(self) -> Sequence[Transfer]:
