@@ -159,6 +159,11 @@ def check(
         inputs = [*files, *judging.csv_parameters.values(), *(rules or ()), *(labware or ())]
         refuse_to_overwrite("--write-baseline", write_baseline, inputs)
         refuse_to_overwrite("--roles-template", roles_file, inputs)
+        if roles_file and roles_file.is_file() and roles_file.stat().st_size:
+            raise ConfigurationError(
+                f"--roles-template {roles_file}: it is there already, and may have been completed: "
+                "give another name, or move it away."
+            )
         known = baseline or (Path(configured.baseline) if configured.baseline else None)
         refuse_to_overwrite("--output", output, [*inputs, *([known] if known else ())])
         settings = dataclasses.replace(

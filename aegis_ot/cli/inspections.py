@@ -108,7 +108,8 @@ def _run(what: str, run: str | None, most: int, shown: Progress) -> Inspection:
     store = open_store(folder)
     known = [str(row["run"]) for row in store.runs()]
     if not known:
-        raise ConfigurationError(f"{folder} holds no run yet.")
+        there = f"{what} is no folder, and " if run else ""
+        raise ConfigurationError(f"{there}{folder} holds no run yet.")
     if run is not None and run not in known:
         raise ConfigurationError(
             f"{run!r} is neither a folder nor a run in {folder}; its newest runs are "

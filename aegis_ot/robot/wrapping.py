@@ -52,7 +52,10 @@ def wrap(
     """
     try:
         tree = ast.parse(text)
-    except (SyntaxError, ValueError) as error:
+    except SyntaxError as error:
+        why = f"line {error.lineno}: {error.msg}"
+        raise ConfigurationError(f"The protocol is no Python: {why}.") from None
+    except ValueError as error:
         raise ConfigurationError(f"The protocol is no Python: {error}.") from None
     if not any(isinstance(node, ast.FunctionDef) and node.name == "run" for node in tree.body):
         raise ConfigurationError("The protocol defines no function run at its top level.")

@@ -251,6 +251,16 @@ def test_nothing_that_the_call_reads_is_written_over(
     assert (exported.code, "would be overwritten" in exported.err) == (2, True)
 
 
+def test_roles_that_somebody_completes_are_not_written_over(aegis: Command, tmp_path: Path) -> None:
+    protocol(tmp_path / "good.py")
+    assert aegis("check", "good.py", "--roles-template", "roles.txt").code == 0
+    (tmp_path / "roles.txt").write_text("completed", encoding="utf-8")
+    again = aegis("check", "good.py", "--roles-template", "roles.txt")
+    assert (again.code, again.out) == (2, "")
+    assert "may have been completed: give another name" in again.err
+    assert (tmp_path / "roles.txt").read_text(encoding="utf-8") == "completed"
+
+
 @pytest.mark.parametrize("name", FORMATS)
 def test_a_format_without_roles_says_so_where_they_are_asked_for(
     aegis: Command, tmp_path: Path, name: str

@@ -59,3 +59,23 @@ def test_wells_that_the_camera_did_not_see_are_said_to_be_such() -> None:
     assert "2 wells were not seen by the camera" in text
     assert 'aria-label="A1: not seen by the camera"' in text
     assert 'aria-label="C1: failed, no dispense"' in text
+
+
+def test_settings_have_their_units() -> None:
+    guard = {"verdict_timeout_s": 60.0, "on_fail": "stop", "keyframes_lost": 3}
+    text = page(overview(delivery(0), guard=guard))
+    assert "verdict timeout 60 s; on fail stop; keyframes lost 3" in text
+
+
+def test_findings_of_several_lines_say_lines() -> None:
+    finding = {
+        "rule": "PCR-2",
+        "severity": "warning",
+        "message": "Carry-over.",
+        "why": "",
+        "fix": "",
+    }
+    said = {"verdict": "warn", "more": 0, "undecided": []}
+    for lines, told in (([4], "Line 4"), ([41, 44], "Lines 41, 44")):
+        layer1 = {**said, "findings": [{**finding, "lines": lines, "wells": []}]}
+        assert told in page(overview(delivery(0), layer1=layer1))

@@ -149,7 +149,7 @@ def test_a_definition_in_the_very_first_line_moves_and_says_so() -> None:
 @pytest.mark.parametrize(
     ("text", "settings", "told"),
     [
-        ("def run(", {}, "no Python"),
+        ("def run(", {}, r"no Python: line 1: '\(' was never closed"),
         ("x = 1\n", {}, "no function run"),
         ("from aegis_ot import guard\n@guard\ndef run(p): ...\n", {"assay": "pcr"}, "Write the"),
     ],

@@ -42,6 +42,13 @@ def fill(store: Store, run: str, ended_days_ago: float | None, frames: int = 1) 
         )
 
 
+@pytest.mark.parametrize("beneath", ["", "data"])
+def test_a_file_where_the_folder_should_be_is_told_as_that(tmp_path: Path, beneath: str) -> None:
+    (tmp_path / "file").write_text("", encoding="utf-8")
+    with pytest.raises(StoreError, match=r"a file is in the way\.$"):
+        Store(tmp_path / "file" / beneath)
+
+
 def pass_time(store: Store, seconds: float) -> None:
     """So much more that a sidecar was at work."""
     store._write("UPDATE at_work SET seconds = seconds + ?", (seconds,))

@@ -154,6 +154,8 @@ class Database:
             raise self._trouble(what, error) from error
 
     def _trouble(self, what: str, error: Exception) -> StoreError:
+        if isinstance(error, FileExistsError | NotADirectoryError):
+            return StoreError(f"Cannot {what} the store in {self.folder}: a file is in the way.")
         return StoreError(
             f"Cannot {what} the store in {self.folder}: {error}. "
             "Check free space and permissions there."
