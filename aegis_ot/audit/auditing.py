@@ -72,17 +72,15 @@ def audit_run(
     wells, left_out = run_wells(store, run, detector, progress)
     ranked: list[_Ranked] = []
     notes: list[str] = []
-    streams = list(by_liquid(wells))
-    progress.begin("Comparing wells", len(streams))
-    for stream in streams:
-        ranked += _judge(stream, wells, scorer)
+    progress.begin("Comparing wells", len(wells))
+    for stream in by_liquid(wells):
+        ranked += _judge(stream, wells, scorer, progress)
         passed = sum(well.outcome == Outcome.PASS.value for well in stream)
         if passed < _FEW:
             notes.append(
                 f"Only {counted(passed, 'well')} of {liquid_words(stream[0])} passed: too few to "
                 "be compared with each other."
             )
-        progress.step()
     if left_out:
         notes.append(
             f"{counted(left_out, 'delivery', 'deliveries')} of several tips, given up, or without "
@@ -121,11 +119,14 @@ def _order(one: _Ranked) -> tuple[float, int]:
 
 
 def _judge(
-    stream: Sequence[RunWell], run: Sequence[RunWell], scorer: EnsembleScorer
+    stream: Sequence[RunWell],
+    run: Sequence[RunWell],
+    scorer: EnsembleScorer,
+    progress: Progress,
 ) -> list[_Ranked]:
     """The silent passes of one liquid, and what they have in common."""
     trusted = [well.outcome == Outcome.PASS.value for well in stream]
-    measured = measure(stream, trusted, scorer)
+    measured = measure(stream, trusted, scorer, progress)
     found = standings(measured, trusted)
     silent = [place for place, well in enumerate(stream) if _silent(well)]
     if not silent:

@@ -9,6 +9,7 @@ from typing import TypeVar
 
 import numpy as np
 
+from ..progress import Progress
 from ..vision.column import Wetness, ceiling
 from ..vision.column_reader import MeasuredColumns, Well
 from ..vision.delivery import Shown
@@ -76,7 +77,7 @@ class Measures:
 
 
 def measure(
-    wells: Sequence[RunWell], trusted: Sequence[bool], scorer: EnsembleScorer
+    wells: Sequence[RunWell], trusted: Sequence[bool], scorer: EnsembleScorer, progress: Progress
 ) -> list[Measures]:
     """Measure the wells of one liquid, in the order in which they were pipetted.
 
@@ -84,6 +85,7 @@ def measure(
         wells: Of one liquid, pipette and kind of tip.
         trusted: Which of them may teach what is normal.
         scorer: The world model; it is left adapted to this liquid.
+        progress: Told of each well.
     """
     reader = MeasuredColumns()
     reader.expect_heights(RunScorer(scorer, 2).height_factors)
@@ -100,6 +102,7 @@ def measure(
     first = max(round(_FIRST_SHARE * len(wells)), _FIRST_LEAST)
     found = []
     for place, well in enumerate(wells):
+        progress.step()
         others = [at for at in range(len(wells)) if at != place and trusted[at]]
         teachers = _spread([taught[at] for at in others], _TEACHERS)
         seen = _read(well, reader, teachers)

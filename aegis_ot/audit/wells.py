@@ -14,6 +14,7 @@ from ..vision.column_reader import MeasuredColumns
 from ..vision.consistency import guesses_in, second_look
 from ..vision.delivery import Delivery, delivery_of
 from ..vision.first_wells import Liquid, liquid_of
+from ..vision.registration import TipLocator
 from ..vision.scorers.looks import hang_alike
 from ..vision.scorers.looks import looks as scorer_looks
 from ..vision.scorers.pair import pair_of
@@ -21,6 +22,7 @@ from ..vision.tips import tip_for
 from ..vision.types import FREE, Detector, Frames, TrajectorySample
 from ..vocabulary import Keyframe, KeyframeKind
 from ..worldmodel.recorded import recorded_runs
+from ..worldmodel.registered_tips import learned_locator, located_tips
 
 
 @dataclass(frozen=True)
@@ -75,6 +77,7 @@ def run_wells(
     (recorded,) = recorded_runs(store, detector, [run])
     keyframes = {one.keyframe.trajectory: one.keyframe for one in store.keyframes(run)}
     progress.begin("Reading tips", len(recorded.samples))
+    locator = learned_locator(recorded.samples, detector)
     wells = []
     for entry, sample in zip(recorded.entries, recorded.samples, strict=True):
         progress.step()
@@ -82,7 +85,9 @@ def run_wells(
             frames = Frames(sample.frames)
         except StoreError:
             continue
-        wells.append(_well(entry, sample, frames, keyframes[entry["trajectory"]], detector))
+        wells.append(
+            _well(entry, sample, frames, keyframes[entry["trajectory"]], detector, locator)
+        )
     return wells, recorded.left_out + len(recorded.samples) - len(wells)
 
 
@@ -92,8 +97,10 @@ def _well(
     frames: Frames,
     keyframe: Keyframe,
     detector: Detector,
+    locator: TipLocator,
 ) -> RunWell:
-    detections = {kind: detector.detect(frames[kind]) for kind in frames}
+    (located,) = located_tips([replace(recorded, frames=frames)], locator).values()
+    detections = dict(located)
     guess = guesses_in(detector, frames)
     if guess is not None:
         detections.update(second_look(guess, detections))

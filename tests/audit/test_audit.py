@@ -12,6 +12,7 @@ from aegis_ot.audit import audit_run
 from aegis_ot.audit.models import world_model
 from aegis_ot.audit.process import AuditProcess
 from aegis_ot.errors import ConfigurationError, StoreError
+from aegis_ot.progress import Progress
 from aegis_ot.reports.audit_html import audit_html
 from aegis_ot.sidecar import SidecarConfig, make_detector
 from aegis_ot.sidecar.overview import run_overview
@@ -50,9 +51,21 @@ class Model:
         return GateDecision(Outcome.PASS, self.gate, "Empty.", costs=cost)
 
 
+class Stages(Progress):
+    def __init__(self) -> None:
+        self.told: dict[str, list[int]] = {}
+
+    def begin(self, what: str, total: int) -> None:
+        self.told[what] = [total, 0]
+
+    def step(self) -> None:
+        list(self.told.values())[-1][1] += 1
+
+
 def test_a_fault_among_the_first_wells_stands_first_and_says_why(passed: Path) -> None:
-    store = Store(passed)
-    audit = audit_run(store, "run-1", make_detector(), world_model())
+    store, stages = Store(passed), Stages()
+    audit = audit_run(store, "run-1", make_detector(), world_model(), progress=stages)
+    assert stages.told == {"Reading tips": [8, 8], "Comparing wells": [8, 8]}
     first, *others = audit.suspects
     assert (first.kind, first.trajectories, first.stands_out) == ("well", (STRUCK,), True)
     assert "µL" in first.why[0]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Set
 from dataclasses import dataclass
 from itertools import islice
@@ -10,10 +9,19 @@ from typing import Literal
 
 from ...adapters.opentrons.instrumentation import Operation, OperationKind
 from ..rules import role_names
-from ..source import comparable
 from ..trace import Contact, Met, Tip, Visit, Well
 from .check import Check, Doubt, Result, Violation, site_of, surest
-from .practice import is_given_to_all, made_after, rinsed_with, was_rinsed
+from .practice import (
+    goes_back,
+    is_given_to_all,
+    is_own,
+    is_pooled,
+    is_rising,
+    on_purpose,
+    rinsed_with,
+    was_filled,
+    was_rinsed,
+)
 from .rule_context import RuleContext, carried_liquids
 
 _IN_ALL = "All that is still made of it is given that liquid too: the tip brought nothing new."
@@ -124,7 +132,7 @@ class Carry(Check):
             return exempt == "now" and (self.stock or self.pooled)
         if met.well is origin and rinsed_with(case, visit, origin):
             return self.stock or self.pooled  # what is left of a rinse
-        if claimed is None or (case.left_over and self.pooled and _is_rising(case, origin, well)):
+        if claimed is None or (case.left_over and self.pooled and is_rising(case, origin, well)):
             so_far.rising.setdefault(origin, well)
             return False
         violation = self._violation(case, visit, origin, met)
@@ -141,17 +149,17 @@ class Carry(Check):
         if case.same_liquid(origin, well):
             return "ever"
         if self.via_destination:
-            filled = _was_filled(case, visit, origin, met)
+            filled = was_filled(case, visit, origin, met)
             if filled != (self.via_destination == "only"):
                 # What was filled stays so; what was not may be filled until the next visit.
-                return "ever" if filled or not _is_own(case, origin) else "now"
+                return "ever" if filled or not is_own(case, origin) else "now"
         if self.stock:
             is_in_place = self._is_in_stock(case, visit, origin, met)
         elif case.is_given(well, origin):
             return "ever"
         else:
-            is_pooled = self.pooled and _is_pooled(case, visit, origin)
-            is_in_place = is_pooled and not _goes_back(case, visit, met)
+            pooled = self.pooled and is_pooled(case, visit, origin)
+            is_in_place = pooled and not goes_back(case, visit, met)
         return "now" if is_in_place else ""
 
     def _is_in_stock(self, case: RuleContext, visit: Visit, origin: Well, met: Met) -> bool:
@@ -166,7 +174,7 @@ class Carry(Check):
         if len(drawn_for) == 1 and all(origin in (dest, *case.meant[dest]) for dest in drawn_for):
             return True  # all that is drawn from it goes to one well, which holds that as well
         return origin in case.meant.get(well, {}) and (
-            _on_purpose(well, origin, visit) or self._made_of(case, visit, origin)
+            on_purpose(well, origin, visit) or self._made_of(case, visit, origin)
         )
 
     def _unnamed_contact(self, case: RuleContext, carriers: Set[Well]) -> Doubt | None:
@@ -300,7 +308,7 @@ class Carry(Check):
         loaded = [one for one in others if one.liquids]
         if loaded and case.go_by_one_name(origin, loaded):
             return _ONE_NAME.format(origin.liquids[0])
-        if not (self.stock or self.via_destination) and _is_pooled(case, visit, origin):
+        if not (self.stock or self.via_destination) and is_pooled(case, visit, origin):
             return _KEPT
         if self.via_destination == "not":
             told = not self.shared or case.is_said_to_hold(origin)
@@ -348,50 +356,6 @@ class _SoFar:
             )
 
 
-def _was_filled(case: RuleContext, visit: Visit, origin: Well, met: Met) -> bool:
-    """Whether the run had put something into the well in which the tip met the liquid."""
-    if origin is not met.well:
-        return True
-    if min(case.meant.get(met.well, {}).values(), default=math.inf) <= met.index:
-        return True
-    # A sample's tip has been in its destination too; with buffers it matters less.
-    return _is_own(case, origin) and any(
-        case.meant.get(other, {}).get(origin, visit.index) < visit.index
-        for other in islice(visit.tip.touched, visit.met)
-    )
-
-
-def _is_own(case: RuleContext, origin: Well) -> bool:
-    """Whether a well is known to hold what other wells of its role do not."""
-    return bool(case.of(origin)) and not case.is_one_liquid(origin)
-
-
-def _is_pooled(case: RuleContext, visit: Visit, origin: Well) -> bool:
-    """Whether what is made of the well is meant to hold the liquid too.
-
-    Water and then sample, drawn for one well, spoils no sample for its other uses.
-    """
-    clean = case.is_one_liquid(origin)
-    given = [
-        dest is origin or case.is_given(dest, origin)
-        for dest in made_after(case, visit.well, visit.index, further=clean)
-        # What is washed is kept; what is drawn off to the waste is not.
-        if visit.kind is OperationKind.ASPIRATE or dest.ref not in case.waste
-    ]
-    return any(given) if clean else bool(given) and all(given)
-
-
-def _goes_back(case: RuleContext, visit: Visit, met: Met) -> bool:
-    """Whether a tip that drew from what was made, to mix it, goes back into a source of which
-    something is left.
-    """
-    into, draws = visit.well, OperationKind.ASPIRATE
-    if visit.kind is not draws or into.empty or met.well not in case.destinations.get(into, ()):
-        return False
-    earlier = (one for one in visit.tip.visits if one.index < visit.index)
-    return any(one.kind is draws and one.well is met.well for one in earlier)
-
-
 def _why_unnamed(case: RuleContext, visit: Visit, origin: Well, met: Met) -> str:
     well = visit.well
     if case.of(well):
@@ -400,27 +364,3 @@ def _why_unnamed(case: RuleContext, visit: Visit, origin: Well, met: Met) -> str
     what = case.title(origin) if case.of(origin) else str(origin.ref)
     enters = f"that met {what} {case.at(met)} enters it {case.at(visit)}"
     return f"nothing says what {well.ref} holds, and the tip {enters}"
-
-
-def _is_rising(case: RuleContext, origin: Well, well: Well) -> bool:
-    """Whether a well, or what it is given, has a greater number beside it than the liquid that is
-    carried there, of which no more is known than its number.
-    """
-    mine = None if origin.ref in case.roles.by_well else case.roles.level(origin.ref)
-    levels = [case.roles.level(one.ref) for one in (well, *case.meant.get(well, ()))]
-    return mine is not None and any(
-        level is not None and mine < level and comparable(mine, level) for level in levels
-    )
-
-
-def _on_purpose(stock: Well, origin: Well, visit: Visit) -> bool:
-    """Whether liquid was mixed into a stock earlier, straight from its source, by another tip."""
-    given = (one.visit for one in stock.received if one.source is origin)
-    earlier = [one for one in given if one.index < visit.index]
-    if any(one.tip is not visit.tip for one in earlier):
-        return True
-    return bool(earlier) and not any(
-        other.tip is visit.tip and other.kind is OperationKind.ASPIRATE
-        for other in stock.visits
-        if other.index < earlier[0].index
-    )

@@ -165,19 +165,16 @@ class DrawsReachLiquid(Check):
     def find(self, case: RuleContext) -> Iterator[Result]:
         found: dict[tuple[object, ...], list[Above]] = {}
         for one in case.trace.above:
-            place = (one.visit.line, one.visit.caller, one.visit.well.ref.labware)
-            meant = one.visit.mixing or _draws_next(one.visit)
-            if one.visit.well.ref not in case.waste and not meant:
-                found.setdefault(place, []).append(one)
+            visit, ref = one.visit, one.visit.well.ref
+            if not (visit.mixing or ref in case.waste or _draws_next(visit)):
+                found.setdefault((visit.line, visit.caller, ref.labware), []).append(one)
         for cause, together in found.items():
-            (visit, height, level, held), well = together[0], together[0].visit.well
-            amount = f"the {microlitres(held)} that are left"
-            if well.declared is not None:
-                amount += ", as declared,"
+            visit, height, level, held = together[0]
+            declared = "" if visit.well.declared is None else ", as declared,"
             message = (
-                f"{microlitres(visit.volume)} are drawn from {well.ref} {case.at(visit)} with the "
-                f"tip {height:.3g} mm above its bottom, and {amount} reach to {level:.3g} mm: "
-                "it draws air. Aim lower."
+                f"{microlitres(visit.volume)} are drawn from {visit.well.ref} {case.at(visit)} "
+                f"with the tip {height:.3g} mm above its bottom, and the {microlitres(held)} that "
+                f"are left{declared} reach to {level:.3g} mm: it draws air. Aim lower."
             )
             for one in together:
                 site = site_of(one.visit, "the tip is above the liquid")

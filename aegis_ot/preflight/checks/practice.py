@@ -1,8 +1,12 @@
-"""What a tip brings along by its letter only: accepted practice, which warns."""
+"""What a tip brings along on purpose, or by the letter only: accepted practice."""
 
 from __future__ import annotations
 
+import math
+from itertools import islice
+
 from ...adapters.opentrons.instrumentation import OperationKind
+from ..source import comparable
 from ..trace import Met, Tip, Visit, Well
 from .rule_context import RuleContext
 
@@ -80,3 +84,71 @@ def rinsed_with(case: RuleContext, visit: Visit, origin: Well) -> bool:
 def _is_bath(well: Well) -> bool:
     """Whether it is mixed again and again, and serves nothing else."""
     return len(well.mixes) > 1 and all(one.mixing for one in well.visits)
+
+
+def was_filled(case: RuleContext, visit: Visit, origin: Well, met: Met) -> bool:
+    """Whether the run had put something into the well in which the tip met the liquid."""
+    if origin is not met.well:
+        return True
+    if min(case.meant.get(met.well, {}).values(), default=math.inf) <= met.index:
+        return True
+    # A sample's tip has been in its destination too; with buffers it matters less.
+    return is_own(case, origin) and any(
+        case.meant.get(other, {}).get(origin, visit.index) < visit.index
+        for other in islice(visit.tip.touched, visit.met)
+    )
+
+
+def is_own(case: RuleContext, origin: Well) -> bool:
+    """Whether a well is known to hold what other wells of its role do not."""
+    return bool(case.of(origin)) and not case.is_one_liquid(origin)
+
+
+def is_pooled(case: RuleContext, visit: Visit, origin: Well) -> bool:
+    """Whether what is made of the well is meant to hold the liquid too.
+
+    Water and then sample, drawn for one well, spoils no sample for its other uses.
+    """
+    clean = case.is_one_liquid(origin)
+    given = [
+        dest is origin or case.is_given(dest, origin)
+        for dest in made_after(case, visit.well, visit.index, further=clean)
+        # What is washed is kept; what is drawn off to the waste is not.
+        if visit.kind is OperationKind.ASPIRATE or dest.ref not in case.waste
+    ]
+    return any(given) if clean else bool(given) and all(given)
+
+
+def goes_back(case: RuleContext, visit: Visit, met: Met) -> bool:
+    """Whether a tip that drew from what was made, to mix it, goes back into a source of which
+    something is left.
+    """
+    into, draws = visit.well, OperationKind.ASPIRATE
+    if visit.kind is not draws or into.empty or met.well not in case.destinations.get(into, ()):
+        return False
+    earlier = (one for one in visit.tip.visits if one.index < visit.index)
+    return any(one.kind is draws and one.well is met.well for one in earlier)
+
+
+def is_rising(case: RuleContext, origin: Well, well: Well) -> bool:
+    """Whether a well, or what it is given, has a greater number beside it than the liquid that is
+    carried there, of which no more is known than its number.
+    """
+    mine = None if origin.ref in case.roles.by_well else case.roles.level(origin.ref)
+    levels = [case.roles.level(one.ref) for one in (well, *case.meant.get(well, ()))]
+    return mine is not None and any(
+        level is not None and mine < level and comparable(mine, level) for level in levels
+    )
+
+
+def on_purpose(stock: Well, origin: Well, visit: Visit) -> bool:
+    """Whether liquid was mixed into a stock earlier, straight from its source, by another tip."""
+    given = (one.visit for one in stock.received if one.source is origin)
+    earlier = [one for one in given if one.index < visit.index]
+    if any(one.tip is not visit.tip for one in earlier):
+        return True
+    return bool(earlier) and not any(
+        other.tip is visit.tip and other.kind is OperationKind.ASPIRATE
+        for other in stock.visits
+        if other.index < earlier[0].index
+    )

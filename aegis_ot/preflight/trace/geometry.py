@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import functools
 import math
+from bisect import bisect_right
 from collections.abc import Mapping
 from enum import IntEnum
 from typing import Any
@@ -70,11 +71,8 @@ class Geometry:
 
     def level_of(self, volume: float) -> float:
         """How high so many µL stand above the bottom, mm."""
-        low, high = 0.0, self.depth
-        while high - low > 0.05:
-            middle = (low + high) / 2
-            low, high = (middle, high) if self.volume_below(middle) <= volume else (low, middle)
-        return low
+        tenths = range(round(10 * self.depth))
+        return bisect_right(tenths, volume, key=lambda at: self.volume_below(at / 10)) / 10
 
     def is_high(self, height: float) -> bool:
         """Whether a height above the bottom is in the upper third, where no liquid is expected."""
