@@ -58,10 +58,11 @@ class TipConsistency:
     def clearly_absent(self, guesses: Collection[TipDetection | None]) -> bool:
         """Whether the likeliest tips of frames without one are clearly fainter than this run's.
 
-        In a view in which the tips themselves are hardly to be seen, not to see one proves nothing.
+        In a view in which the tips themselves are hardly to be seen, not to see one proves nothing;
+        nor before one was seen at all: the camera may not see where they hang.
         """
         if not self._confidences:
-            return True
+            return False
         limit = _CLEARLY * float(np.median(self._confidences))
         return all(guess is None or guess.confidence < limit for guess in guesses)
 

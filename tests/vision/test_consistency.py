@@ -50,7 +50,9 @@ def test_a_run_learns_from_frames_that_agree_alone(known: TipConsistency) -> Non
     for _ in range(4):
         unlike.note({K.TRANSIT: tip(), K.POST_DISPENSE: tip(length=120.0)})
         unlike.note({K.TRANSIT: tip(), K.POST_DISPENSE: None})
-    assert unlike.clearly_absent([tip()])
+    # It knows no tip yet: that the camera shows none proves nothing.
+    assert not unlike.clearly_absent([None])
+    assert known.clearly_absent([None])
     assert not known.clearly_absent([tip()])
 
 

@@ -67,7 +67,7 @@ class VolumetricGate:
             return GateDecision(
                 Outcome.UNDECIDED,
                 self.gate,
-                "No tip was found, but in this view the tips of this run are hardly to be seen.",
+                "No tip was found, but in this view none has been seen clearly so far.",
             )
         if absent:
             return GateDecision(
