@@ -85,7 +85,7 @@ def measure(
         wells: Of one liquid, pipette and kind of tip.
         trusted: Which of them may teach what is normal.
         scorer: The world model; it is left adapted to this liquid.
-        progress: Told of each well.
+        progress: Steps once a well.
     """
     reader = MeasuredColumns()
     reader.expect_heights(RunScorer(scorer, 2).height_factors)

@@ -53,19 +53,20 @@ class Model:
 
 class Stages(Progress):
     def __init__(self) -> None:
-        self.told: dict[str, list[int]] = {}
+        self.done: dict[str, list[int]] = {}
+        """Steps of each stage: how many there are, and how many were done."""
 
     def begin(self, what: str, total: int) -> None:
-        self.told[what] = [total, 0]
+        self.done[what] = [total, 0]
 
     def step(self) -> None:
-        list(self.told.values())[-1][1] += 1
+        list(self.done.values())[-1][1] += 1
 
 
 def test_a_fault_among_the_first_wells_stands_first_and_says_why(passed: Path) -> None:
     store, stages = Store(passed), Stages()
     audit = audit_run(store, "run-1", make_detector(), world_model(), progress=stages)
-    assert stages.told == {"Reading tips": [8, 8], "Comparing wells": [8, 8]}
+    assert stages.done == {"Reading tips": [8, 8], "Comparing wells": [8, 8]}
     first, *others = audit.suspects
     assert (first.kind, first.trajectories, first.stands_out) == ("well", (STRUCK,), True)
     assert "µL" in first.why[0]

@@ -76,6 +76,6 @@ def test_findings_of_several_lines_say_lines() -> None:
         "fix": "",
     }
     said = {"verdict": "warn", "more": 0, "undecided": []}
-    for lines, told in (([4], "Line 4"), ([41, 44], "Lines 41, 44")):
+    for lines, words in (([4], "Line 4"), ([41, 44], "Lines 41, 44")):
         layer1 = {**said, "findings": [{**finding, "lines": lines, "wells": []}]}
-        assert told in page(overview(delivery(0), layer1=layer1))
+        assert words in page(overview(delivery(0), layer1=layer1))

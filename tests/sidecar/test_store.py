@@ -43,7 +43,7 @@ def fill(store: Store, run: str, ended_days_ago: float | None, frames: int = 1) 
 
 
 @pytest.mark.parametrize("beneath", ["", "data"])
-def test_a_file_where_the_folder_should_be_is_told_as_that(tmp_path: Path, beneath: str) -> None:
+def test_a_file_where_the_folder_should_be_is_named(tmp_path: Path, beneath: str) -> None:
     (tmp_path / "file").write_text("", encoding="utf-8")
     with pytest.raises(StoreError, match=r"a file is in the way\.$"):
         Store(tmp_path / "file" / beneath)
